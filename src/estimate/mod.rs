@@ -1,0 +1,3 @@
+//! Numbers for the terms of a plan.
+
+pub mod closed_form;

@@ -1,0 +1,3 @@
+//! Shapes and rays.
+
+pub mod bvh;

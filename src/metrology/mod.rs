@@ -1,0 +1,1 @@
+//! Uncertainty: accumulators, budgets, coverage.

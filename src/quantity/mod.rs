@@ -1,0 +1,1 @@
+//! Units: the two-way table of quantity and system as types.

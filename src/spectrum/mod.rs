@@ -1,0 +1,1 @@
+//! Functions of wavelength: densities, factors, lines, exact product integrals.
