@@ -175,6 +175,7 @@ fn walk<K: Kernel, const ORDERED: bool, const STACK: usize>(
                 let next = |lanes: &mut u32| {
                     let lane = (lanes.trailing_zeros() & 7) as usize;
                     *lanes &= *lanes - 1;
+                    kernel.prefetch(bvh, node.child[lane]);
                     waiting(entry[lane], node.child[lane])
                 };
                 let first = next(&mut lanes);
