@@ -108,6 +108,13 @@ impl Stream {
         Stream { key: mix(self.key.wrapping_add(part.wrapping_mul(0x9e37_79b9_7f4a_7c15)).wrapping_add(0x632b_e59b_d9b4_e019)) }
     }
 
+    /// One number in (0, 1) of the stream's own, independent of its points.
+    #[inline]
+    #[must_use]
+    pub fn number(self) -> f64 {
+        unit_interval((mix(self.key ^ 0x5851_f42d_4c95_7f2d) >> 32) as u32)
+    }
+
     #[inline(always)]
     fn keys(self, set: u32) -> [u32; 5] {
         let a = mix(self.key ^ (u64::from(set) << 1 | 1).wrapping_mul(0xd6e8_feb8_6659_fd93));
