@@ -16,7 +16,7 @@ mod avx2;
 mod build;
 mod node;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod traverse;
 
 use node::{Node, Packet};
