@@ -1,0 +1,149 @@
+//! The shapes a scene is made of, placed in the world.
+//!
+//! | shape | surface | its front |
+//! |---|---|---|
+//! | `Rectangle` | centre ± `half_u` ± `half_v` | the side of `half_u × half_v` |
+//! | `Disc` | the points within `radius_m` of the centre, in the plane of `normal` | the side of `normal` |
+//! | `Sphere` | the points at `radius_m` from the centre | the outside |
+//! | `Mesh` | triangles | the side from which the vertices run counter-clockwise |
+//!
+//! A box is six rectangles; whoever builds one decides which way they face.
+
+use std::sync::Arc;
+
+use super::mesh::Mesh;
+use crate::math::DVec3;
+
+/// A plane rectangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rectangle {
+    /// Centre, m.
+    pub centre: DVec3,
+    /// From the centre to the middle of one side, m.
+    pub half_u: DVec3,
+    /// From the centre to the middle of a neighbouring side, m; perpendicular to `half_u`.
+    pub half_v: DVec3,
+}
+
+impl Rectangle {
+    /// Unit normal of the front.
+    #[must_use]
+    pub fn normal(&self) -> DVec3 {
+        self.half_u.normalize().cross(self.half_v.normalize()).normalize()
+    }
+
+    /// Area in m².
+    #[must_use]
+    pub fn area_m2(&self) -> f64 {
+        4.0 * self.half_u.length() * self.half_v.length()
+    }
+
+    /// The corners, counter-clockwise as seen from the front, m.
+    #[must_use]
+    pub fn corners(&self) -> [DVec3; 4] {
+        let (c, u, v) = (self.centre, self.half_u, self.half_v);
+        [c - u - v, c + u - v, c + u + v, c - u + v]
+    }
+}
+
+/// A plane disc.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disc {
+    /// Centre, m.
+    pub centre: DVec3,
+    /// Unit normal of the front.
+    pub normal: DVec3,
+    /// Radius, m.
+    pub radius_m: f64,
+}
+
+/// A sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Centre, m.
+    pub centre: DVec3,
+    /// Radius, m.
+    pub radius_m: f64,
+}
+
+/// A shape in the world.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// A plane rectangle.
+    Rectangle(Rectangle),
+    /// A plane disc.
+    Disc(Disc),
+    /// A sphere.
+    Sphere(Sphere),
+    /// A triangle mesh, shared because it may be large.
+    Mesh(Arc<Mesh>),
+}
+
+/// One of the two sides of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Side {
+    /// The side that the normal points to.
+    Front,
+    /// The other side.
+    Back,
+}
+
+impl Side {
+    /// +1 for the front, −1 for the back.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Side::Front => 1.0,
+            Side::Back => -1.0,
+        }
+    }
+}
+
+impl Shape {
+    /// Area of one side, m².
+    #[must_use]
+    pub fn area_m2(&self) -> f64 {
+        use std::f64::consts::PI;
+        match self {
+            Shape::Rectangle(r) => r.area_m2(),
+            Shape::Disc(d) => PI * d.radius_m * d.radius_m,
+            Shape::Sphere(s) => 4.0 * PI * s.radius_m * s.radius_m,
+            Shape::Mesh(m) => m.area_m2(),
+        }
+    }
+
+    /// Centre and radius of a sphere that holds the shape, m.
+    #[must_use]
+    pub fn bounding_sphere(&self) -> (DVec3, f64) {
+        match self {
+            Shape::Rectangle(r) => (r.centre, r.half_u.length().hypot(r.half_v.length())),
+            Shape::Disc(d) => (d.centre, d.radius_m),
+            Shape::Sphere(s) => (s.centre, s.radius_m),
+            Shape::Mesh(m) => {
+                let (low, high) = m.bounds();
+                let centre = low + 0.5 * (high - low);
+                (centre, (high - centre).length())
+            }
+        }
+    }
+
+    /// Lowest and highest value of `axis · x` over the shape, m; `axis` need not be of unit length.
+    ///
+    /// Meshes answer with the box that holds them.
+    #[must_use]
+    pub fn extent_along(&self, origin: DVec3, axis: DVec3) -> (f64, f64) {
+        let around = |centre: DVec3, half: f64| {
+            let middle = axis.dot(centre - origin);
+            (middle - half, middle + half)
+        };
+        match self {
+            Shape::Rectangle(r) => around(r.centre, axis.dot(r.half_u).abs() + axis.dot(r.half_v).abs()),
+            Shape::Disc(d) => around(d.centre, axis.cross(d.normal).length() * d.radius_m),
+            Shape::Sphere(s) => around(s.centre, axis.length() * s.radius_m),
+            Shape::Mesh(m) => {
+                let (low, high) = m.bounds();
+                around(low + 0.5 * (high - low), axis.abs().dot(0.5 * (high - low)))
+            }
+        }
+    }
+}
