@@ -151,7 +151,12 @@ impl Disc {
             // The rim is wholly inside or wholly outside; any point of it tells.
             let rim = c + radius * self.steepest();
             if rim.z > 0.0 && acceptance.depth(rim.x.hypot(rim.y), rim.z) >= 0.0 {
-                return self.flux_vector_component();
+                // A rim that is cut by the horizon leaves the cone just above it, if closer than the roots can tell.
+                return if c.z - rise >= 0.0 {
+                    self.flux_vector_component()
+                } else {
+                    self.strips(&self.horizon_breaks(), acceptance)
+                };
             }
             return if self.axis_pierces() {
                 PI * acceptance.sin * acceptance.sin
@@ -308,21 +313,14 @@ impl Disc {
                     rho: c.x * cos + c.y * sin + offset * across * along / k,
                     z: c.z + offset * across * m.z / k,
                 },
+                across: StripPoint {
+                    rho: along / k,
+                    z: m.z / k,
+                },
                 distance: height / k,
             };
-            let half = margin.sqrt() / k;
-            let end = StripPoint {
-                rho: half * m.z,
-                z: -half * along,
-            };
-            line.chord(
-                StripPoint {
-                    rho: -end.rho,
-                    z: -end.z,
-                },
-                end,
-                acceptance,
-            )
+            let half = margin.sqrt();
+            line.chord(-half, half, acceptance)
         };
         integrate_azimuth(breaks.to_vec(), &strip).value
     }

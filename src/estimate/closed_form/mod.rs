@@ -18,7 +18,7 @@
 
 pub mod aperture;
 pub mod cone;
-// pub mod directional;
+pub mod directional;
 pub mod disc;
 pub mod exchange;
 mod fan;

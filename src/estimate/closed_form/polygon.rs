@@ -80,7 +80,11 @@ pub(super) struct LocalPolygon {
 
 impl LocalPolygon {
     pub(super) fn new(vertices: &[DVec3], normal: DVec3) -> Option<LocalPolygon> {
-        let world = scaled(vertices)?;
+        let mut world = scaled(vertices)?;
+        // Everything is taken relative to the nearest vertex: rounding is largest where it matters least.
+        let length = |i: &usize| world[*i].length_squared();
+        let nearest = (0..world.len()).min_by(|i, j| length(i).total_cmp(&length(j)))?;
+        world.rotate_left(nearest);
         let first = world[0];
         let area: DVec3 = world[1..]
             .windows(2)
@@ -217,16 +221,23 @@ impl LocalPolygon {
             let (sin, cos) = phi.sin_cos();
             let along = self.m.x * cos + self.m.y * sin;
             let k = along.hypot(self.m.z);
+            let across = StripPoint {
+                rho: along / k,
+                z: self.m.z / k,
+            };
+            // Foot of the perpendicular, in the plane of the polygon, from the first vertex to the line.
+            let offset = -first.x * sin / k * (self.m.y * cos - self.m.x * sin);
             let base = StripPoint {
-                rho: first.x * cos,
-                z: first.z,
+                rho: first.x * cos + offset * across.rho,
+                z: first.z + offset * across.z,
             };
             let line = StripLine {
                 base,
+                across,
                 distance: self.height / k,
             };
             let plane_distance = |d: DVec3| -first.x * sin + (d.y * cos - d.x * sin);
-            let mut ends: Vec<StripPoint> = Vec::with_capacity(4);
+            let mut ends: Vec<f64> = Vec::with_capacity(4);
             for i in 0..n {
                 let (a, b) = (self.relative[i], self.relative[(i + 1) % n]);
                 let (ya, yb) = (plane_distance(a), plane_distance(b));
@@ -234,13 +245,9 @@ impl LocalPolygon {
                     continue;
                 }
                 let p = a + (b - a) * (ya / (ya - yb));
-                ends.push(StripPoint {
-                    rho: p.x * cos + p.y * sin,
-                    z: p.z,
-                });
+                ends.push((p.x * cos + p.y * sin) * across.z - p.z * across.rho);
             }
-            let position = |p: &StripPoint| p.rho * self.m.z - p.z * along;
-            ends.sort_by(|p, q| position(p).total_cmp(&position(q)));
+            ends.sort_by(f64::total_cmp);
             let sum: f64 = ends
                 .chunks_exact(2)
                 .map(|pair| line.chord(pair[0], pair[1], acceptance))
@@ -269,7 +276,11 @@ impl EdgeSum {
         }
         let angle = sine.atan2(a.dot(b));
         self.value += 0.5 * angle * (cross.z / sine);
-        self.rounding += 2.0 * f64::EPSILON * angle * (a.length() * edge.length() / sine).max(1.0);
+        // Of the angle, and of the inclination of the edge's plane (which does not matter where that is level).
+        let (la, lb, length) = (a.length(), b.length(), edge.length());
+        let inclination = cross.x.hypot(cross.y) / sine;
+        let rounding = length / la.min(lb) + angle * (1.0 + la * length / sine * inclination);
+        self.rounding += f64::EPSILON * rounding;
     }
 }
 

@@ -44,7 +44,6 @@ impl Case {
             self.id(),
             deviation / reference
         );
-        // Where no absolute tolerance is needed to pass, the relative one must hold as well.
     }
 }
 
