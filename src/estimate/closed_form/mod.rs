@@ -25,7 +25,9 @@ mod fan;
 mod frame;
 pub mod point;
 pub mod polygon;
+pub mod polygon_in_cone;
 mod quadrature;
+mod sign_change;
 pub mod sphere;
 
 #[cfg(test)]
