@@ -8,7 +8,7 @@
 //! | disc or rectangle | any | adaptive quadrature of the point's formula over the aperture |
 
 use super::closed_form::aperture::{self, Bounded, aperture_average};
-use super::closed_form::{directional, disc, exchange, point, polygon, sphere};
+use super::closed_form::{directional, disc, exchange, point, polygon, polygon_in_cone, sphere};
 use crate::geometry::shape::{Shape, Side};
 use crate::math::DVec3;
 use crate::plan::choose::closed_sphere;
@@ -114,7 +114,7 @@ fn over_hemisphere(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> f64 {
 
 fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_rad: f64) -> f64 {
     let of_polygon = |corners: &[DVec3]| {
-        if polygon::receiver_in_front(corners) { polygon::polygon_in_cone(corners, normal, half_angle_rad) } else { 0.0 }
+        if polygon::receiver_in_front(corners) { polygon_in_cone::polygon_in_cone(corners, normal, half_angle_rad) } else { 0.0 }
     };
     match shape {
         Shape::Rectangle(r) => of_polygon(&facing(r.corners().map(|c| c - at), side)),

@@ -20,7 +20,7 @@
 mod kernel;
 mod prepare;
 
-pub(super) use kernel::{PathSums, trace};
+pub(super) use kernel::trace;
 pub(super) use prepare::PathScene;
 
 /// Reflections after which a path may end by chance.

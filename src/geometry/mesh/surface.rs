@@ -17,4 +17,17 @@ impl Mesh {
         let local = (near - self.centre) / self.size_m;
         (self.world(local - normal * normal.dot(local - corners[0])), normal)
     }
+
+    /// [`Mesh::sample_by_area`] with two numbers: the first one chooses the triangle, and its place within the stretch of numbers that
+    /// choose this triangle, uniform again, serves as the next.
+    #[must_use]
+    pub fn sample_by_area_with_two(&self, u: [f64; 2]) -> (u32, DVec3, DVec3) {
+        let sums = &self.cumulative_area;
+        let last = sums.len() - 1;
+        let wanted = u[0] * sums[last];
+        let triangle = sums.partition_point(|&sum| sum <= wanted).min(last);
+        let before = if triangle == 0 { 0.0 } else { sums[triangle - 1] };
+        let rest = ((wanted - before) / (sums[triangle] - before)).clamp(0.0, 1.0);
+        self.sample_by_area([u[0], if rest.is_finite() { rest } else { 0.5 }, u[1]])
+    }
 }
