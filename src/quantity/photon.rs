@@ -1,0 +1,102 @@
+//! Photons of monochromatic radiation.
+//!
+//! ```text
+//! Q_p = h c / λ           energy of one photon
+//! Φ_p = Φ_e λ / (h c)     photon flux of a monochromatic radiant flux
+//! ```
+//!
+//! λ is the wavelength **in vacuum**: the energy of a photon belongs to its frequency, and the wavelength in air is
+//! shorter by 2.8e-4. For a spectrum the factor λ/(hc) belongs under the integral; factors such as 4.57 µmol/J hold for
+//! one spectrum only.
+//!
+//! Source: BIPM, *The International System of Units*, 9th edition, appendix 3.
+
+use super::constants::{AVOGADRO_PER_MOL, PLANCK_J_S, SPEED_OF_LIGHT_M_S};
+use super::table::{Irradiance, PhotonFlux, PhotonIrradiance, RadiantFlux};
+
+const NANOMETRES_PER_METRE: f64 = 1e9;
+const MICROMOLES_PER_MOLE: f64 = 1e6;
+
+/// Energy of one photon, in J, of the wavelength `wavelength_vacuum_nm` in nanometres, above zero: `h c / λ`.
+pub fn photon_energy_j(wavelength_vacuum_nm: f64) -> f64 {
+    PLANCK_J_S * SPEED_OF_LIGHT_M_S / (wavelength_vacuum_nm / NANOMETRES_PER_METRE)
+}
+
+/// Photons per joule of monochromatic radiation, in 1/J: `λ / (h c)`.
+pub fn photons_per_joule(wavelength_vacuum_nm: f64) -> f64 {
+    wavelength_vacuum_nm / NANOMETRES_PER_METRE / (PLANCK_J_S * SPEED_OF_LIGHT_M_S)
+}
+
+/// Photon flux of a monochromatic radiant flux: `Φ_p = Φ_e λ / (h c)`.
+pub fn monochromatic_photon_flux(flux: RadiantFlux, wavelength_vacuum_nm: f64) -> PhotonFlux {
+    PhotonFlux::new(flux.value() * photons_per_joule(wavelength_vacuum_nm))
+}
+
+/// Photon irradiance of a monochromatic irradiance: `E_p = E_e λ / (h c)`.
+pub fn monochromatic_photon_irradiance(
+    irradiance: Irradiance,
+    wavelength_vacuum_nm: f64,
+) -> PhotonIrradiance {
+    PhotonIrradiance::new(irradiance.value() * photons_per_joule(wavelength_vacuum_nm))
+}
+
+impl PhotonIrradiance {
+    /// The number in µmol/(m² s), the unit of plant physiology: `E_p / N_A`.
+    pub fn umol_m2_s(self) -> f64 {
+        self.value() / AVOGADRO_PER_MOL * MICROMOLES_PER_MOLE
+    }
+
+    /// From a number in µmol/(m² s).
+    pub fn from_umol_m2_s(umol_m2_s: f64) -> Self {
+        Self::new(umol_m2_s / MICROMOLES_PER_MOLE * AVOGADRO_PER_MOL)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn assert_close(found: f64, expected: f64) {
+        assert!(
+            (found / expected - 1.0).abs() <= 1e-14,
+            "found {found:e}, expected {expected:e}"
+        );
+    }
+
+    #[test]
+    fn photon_energies_agree_with_the_references() {
+        // g1a.photon-energy-1, -3, -5.
+        assert_close(photon_energy_j(555.0), 3.579_181_724_592_664_3e-19);
+        assert_close(photon_energy_j(1064.0), 1.866_960_392_057_263_9e-19);
+        assert_close(photon_energy_j(253.652), 7.831_382_591_696_216e-19);
+    }
+
+    #[test]
+    fn photon_rate_of_a_femtowatt_agrees_with_the_reference() {
+        // g1a.photon-rate-2.
+        let rate = monochromatic_photon_flux(RadiantFlux::new(1e-15), 632.8);
+        assert_close(rate.value(), 3_185.588_963_941_026_6);
+    }
+
+    #[test]
+    fn photosynthetic_photon_irradiance_agrees_with_the_reference() {
+        // g1a.ppfd-1.
+        let e_p = monochromatic_photon_irradiance(Irradiance::new(1.0), 450.0);
+        assert_close(e_p.umol_m2_s(), 3.761_706_253_100_299_6);
+    }
+
+    proptest! {
+        #[test]
+        fn photons_times_their_energy_are_the_flux(watts in 1e-300..1e9f64, nm in 1.0..1e6f64) {
+            let photons = monochromatic_photon_flux(RadiantFlux::new(watts), nm);
+            prop_assert!((photons.value() * photon_energy_j(nm) / watts - 1.0).abs() < 1e-15);
+        }
+
+        #[test]
+        fn micromoles_return(e_p in 1e-300..1e30f64) {
+            let back = PhotonIrradiance::from_umol_m2_s(PhotonIrradiance::new(e_p).umol_m2_s());
+            prop_assert!((back.value() / e_p - 1.0).abs() < 1e-15);
+        }
+    }
+}
