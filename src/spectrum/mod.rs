@@ -1,1 +1,43 @@
 //! Functions of wavelength: densities, factors, lines, exact product integrals.
+//!
+//! Two kinds of function, and they do not mix:
+//!
+//! | kind | type | examples | per nm? |
+//! |---|---|---|---|
+//! | density | [`Density`] | spectral flux, spectral radiance, a laser line | yes |
+//! | factor | [`Factor`] | reflectance, transmittance, responsivity, V(λ) | no |
+//!
+//! A density times factors, integrated over wavelength, is a number ([`Density::integral`]); there is no other way from a
+//! spectrum to a number. Wavelengths are in nm, in air, and positive.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `table` | piecewise-linear tables |
+//! | `support` | sets of wavelengths where something is not zero |
+//! | `factor` | dimensionless functions |
+//! | `density` | continuum and lines |
+//! | `black_body` | Planck's law |
+//! | `product_integral` | exact integrals of products |
+//! | `quadrature` | few wavelengths and positive weights for path products |
+//! | `photometry` | radiant, luminous and photon totals |
+//! | `table_text` | text of a curve file to columns, or all its problems |
+//! | `library` | embedded tables by name |
+
+pub mod black_body;
+mod density;
+mod error;
+mod factor;
+mod gauss_legendre;
+mod product_integral;
+mod scaled_number;
+mod support;
+mod table;
+
+pub use density::{Continuum, Density, Line};
+pub use error::SpectrumError;
+pub use factor::Factor;
+pub use support::Support;
+pub use table::{Outside, Table};
+
+#[cfg(test)]
+mod tests;
