@@ -1,3 +1,4 @@
 //! Shapes and rays.
 
 pub mod bvh;
+pub mod mesh;
