@@ -48,8 +48,7 @@ pub fn normal_quantile(p: f64) -> Option<f64> {
 /// `dof` is any number above zero, infinity included (then the normal quantile). For a `dof` of a few thousandths the
 /// quantile can exceed the range of `f64`; it is then infinite. `None` unless 0 < p < 1 and dof > 0.
 pub fn student_t_quantile(p: f64, dof: f64) -> Option<f64> {
-    // The negated comparison also refuses NaN.
-    if !is_open_probability(p) || !(dof > 0.0) {
+    if !is_open_probability(p) || dof.is_nan() || dof <= 0.0 {
         return None;
     }
     if p == 0.5 {
@@ -112,7 +111,7 @@ fn student_t_of_tail(tail: f64, dof: f64) -> f64 {
 /// For a `dof` of a few thousandths the quantile can fall below the range of `f64`; it is then zero.
 /// `None` unless 0 < p < 1 and 0 < dof < ∞. `chi_squared_quantile(0.05, 15.0)` is 7.26094.
 pub fn chi_squared_quantile(p: f64, dof: f64) -> Option<f64> {
-    if !is_open_probability(p) || !(dof > 0.0 && dof < f64::INFINITY) {
+    if !is_open_probability(p) || !dof.is_finite() || dof <= 0.0 {
         return None;
     }
     if dof >= MANY_DEGREES_CHI_SQUARED {
@@ -166,15 +165,22 @@ fn increasing_root(residual: impl Fn(f64) -> (f64, f64), mut low: f64, mut high:
             high = at;
         }
         let newton = at - value / slope;
+        // A step below the rounding of its argument may leave the bracket and still is the end of the search.
+        if (newton - at).abs() <= f64::EPSILON * at.abs().max(1.0) {
+            return newton;
+        }
         let next = if newton > low && newton < high {
             newton
         } else {
             0.5 * (low + high)
         };
-        if (next - at).abs() <= f64::EPSILON * at.abs().max(1.0) || value == 0.0 {
-            return next;
+        if next == at {
+            return at;
         }
         at = next;
     }
     at
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,30 @@
+//! Reflected light by paths from the instrument, connected to a source at every reflection.
+//!
+//! ```text
+//! S = ⟨ W Σ_k (Π_{j≤k} ρ_j(λ)) · E_k/π ⟩      W = R(ω₀) π sin²α
+//! ```
+//!
+//! | factor | density | what is left |
+//! |---|---|---|
+//! | R cosθ at the sensor | cosθ/(π sin²α) within the acceptance | W = R π sin²α |
+//! | (ρ/π) cosθ at a surface | cosθ/π | ρ |
+//! | (ρ/π) at the end of a path | a connection to a light | ρ/π times its irradiance |
+//! | survival | p, after the third reflection | 1/p |
+//!
+//! The paths carry the product of reflectances at every node of the spectral plan, so there is no colour noise and one run
+//! serves every channel. Russian roulette starts after the third reflection, with the surface's largest reflectance: earlier it
+//! throws away what the low-discrepancy points gain. There is no limit to the number of reflections.
+//!
+//! Sixteen paths run in lockstep; a lane whose path has ended takes the next one.
+
+mod kernel;
+mod prepare;
+
+pub(super) use kernel::{PathSums, trace};
+pub(super) use prepare::PathScene;
+
+/// Reflections after which a path may end by chance.
+const ROULETTE_AFTER: u32 = 3;
+
+/// Reflections after which a path is taken to be endless: with reflectances below 1 − 1e-4 none gets here by chance.
+const ENDLESS: u32 = 4_000_000;

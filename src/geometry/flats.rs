@@ -1,0 +1,83 @@
+//! Plane shapes against blocks of rays, in double precision.
+//!
+//! ```text
+//! t = n·(c − o) / n·d,   (a, b) = ((o + t d − c)·u/|u|², (o + t d − c)·v/|v|²)
+//! rectangle: |a| ≤ 1 and |b| ≤ 1      disc: a² + b² ≤ 1
+//! ```
+//!
+//! A ray that leaves a flat cannot meet it again: it is told apart by its index, so no distance has to be called small.
+
+use super::rays::{COINCIDENT, Hits, LANES, NONE, Rays};
+use super::shape::{Disc, Rectangle};
+use crate::math::DVec3;
+use crate::math::frame::tangents;
+
+/// A rectangle or a disc, prepared.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flat {
+    element: u32,
+    centre: DVec3,
+    pub(super) normal: DVec3,
+    /// u/|u|² and v/|v|²: they turn a point of the plane into parameters.
+    u: DVec3,
+    v: DVec3,
+}
+
+impl Flat {
+    pub(super) fn rectangle(element: u32, r: &Rectangle) -> Flat {
+        let inverse = |half: DVec3| half.normalize() / half.length();
+        Flat { element, centre: r.centre, normal: r.normal(), u: inverse(r.half_u), v: inverse(r.half_v) }
+    }
+
+    pub(super) fn disc(element: u32, d: &Disc) -> Flat {
+        let (x, y) = tangents(d.normal);
+        Flat { element, centre: d.centre, normal: d.normal, u: x / d.radius_m, v: y / d.radius_m }
+    }
+}
+
+/// Distance and in-plane parameters of the plane of a flat in one lane. A ray in the plane gives NaN or infinity, which every
+/// comparison below refuses.
+#[inline(always)]
+fn meet(flat: &Flat, rays: &Rays, lane: usize) -> (f64, f64, f64) {
+    let (ox, oy, oz) = (
+        rays.origin.x[lane] - flat.centre.x,
+        rays.origin.y[lane] - flat.centre.y,
+        rays.origin.z[lane] - flat.centre.z,
+    );
+    let (dx, dy, dz) = (rays.direction.x[lane], rays.direction.y[lane], rays.direction.z[lane]);
+    let (n, u, v) = (&flat.normal, &flat.u, &flat.v);
+    let t = -(n.x * ox + n.y * oy + n.z * oz) / (n.x * dx + n.y * dy + n.z * dz);
+    let (px, py, pz) = (ox + t * dx, oy + t * dy, oz + t * dz);
+    (t, u.x * px + u.y * py + u.z * pz, v.x * px + v.y * py + v.z * pz)
+}
+
+/// Shortens `hits` to the nearest rectangle (`ROUND` = false) or disc (`ROUND` = true).
+#[inline(always)]
+pub(super) fn nearest<const ROUND: bool>(flats: &[Flat], rays: &Rays, hits: &mut Hits) {
+    for flat in flats {
+        for lane in 0..LANES {
+            let (t, a, b) = meet(flat, rays, lane);
+            let within = if ROUND { a * a + b * b <= 1.0 } else { (a.abs() <= 1.0) & (b.abs() <= 1.0) };
+            let nearer = (t > 0.0) & (t < hits.t[lane] * (1.0 - COINCIDENT)) & within & (rays.leaving[lane] != flat.element);
+            hits.t[lane] = if nearer { t } else { hits.t[lane] };
+            hits.element[lane] = if nearer { flat.element } else { hits.element[lane] };
+            hits.part[lane] = if nearer { NONE } else { hits.part[lane] };
+        }
+    }
+}
+
+/// Marks the lanes whose way is cut by a rectangle or disc.
+#[inline(always)]
+pub(super) fn cut<const ROUND: bool>(flats: &[Flat], rays: &Rays, blocked: &mut [bool; LANES]) {
+    for flat in flats {
+        for lane in 0..LANES {
+            let (t, a, b) = meet(flat, rays, lane);
+            let within = if ROUND { a * a + b * b <= 1.0 } else { (a.abs() <= 1.0) & (b.abs() <= 1.0) };
+            blocked[lane] |= (t > 0.0)
+                & (t < rays.t_end[lane] * (1.0 - COINCIDENT))
+                & within
+                & (rays.leaving[lane] != flat.element)
+                & (rays.arriving[lane] != flat.element);
+        }
+    }
+}

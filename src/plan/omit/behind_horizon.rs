@@ -1,0 +1,21 @@
+//! The whole source lies below the horizon of the instrument, in each of its poses.
+
+use super::Rule;
+use crate::plan::{Bound, Plan, Transport};
+use crate::plan::sight;
+use crate::scene::Scene;
+
+pub(super) const RULE: Rule = Rule {
+    name: "behind_horizon",
+    sentence: "the whole source lies below the instrument's horizon",
+    apply,
+};
+
+fn apply(scene: &Scene, plan: &mut Plan) {
+    plan.omit(RULE.name, |term| {
+        let poses = &scene.instruments[term.id.instrument()].poses;
+        let hidden = term.id.transport == Transport::Direct
+            && poses.iter().all(|pose| sight::highest_over_horizon(scene, pose, &scene.sources[term.id.source()]) <= 0.0);
+        hidden.then_some((RULE.sentence.into(), Bound::Zero))
+    });
+}

@@ -1,0 +1,222 @@
+//! Who can see whom: bounds from extents and bounding spheres, on the safe side, without a ray.
+
+use std::f64::consts::PI;
+
+use crate::geometry::shape::{Shape, Side};
+use crate::math::DVec3;
+use crate::scene::{Instrument, Pose, Scene};
+use crate::source::{Emitter, Source};
+
+/// How far the source reaches above the plane of the aperture, m (for parallel light the cosine of incidence); at most zero when
+/// all of it is below the horizon.
+pub(crate) fn highest_over_horizon(scene: &Scene, pose: &Pose, source: &Source) -> f64 {
+    match &source.emitter {
+        Emitter::Point { at } => pose.normal.dot(*at - pose.at),
+        Emitter::Directional { travels } => -travels.dot(pose.normal),
+        Emitter::Area { elements } => {
+            let highest = |&(e, _): &(usize, Side)| scene.elements[e].shape.extent_along(pose.at, pose.normal).1;
+            elements.iter().map(highest).fold(f64::NEG_INFINITY, f64::max)
+        }
+        Emitter::Environment => f64::INFINITY,
+    }
+}
+
+/// Whether an emitting side of the source may face some point within `reach_m` of `at`.
+pub(crate) fn may_emit_towards(scene: &Scene, source: &Source, at: DVec3, reach_m: f64) -> bool {
+    let Emitter::Area { elements } = &source.emitter else { return true };
+    elements.iter().any(|&(e, side)| {
+        let ahead = |centre: DVec3, normal: DVec3| side.sign() * normal.dot(at - centre) + reach_m > 0.0;
+        match &scene.elements[e].shape {
+            Shape::Rectangle(r) => ahead(r.centre, r.normal()),
+            Shape::Disc(d) => ahead(d.centre, d.normal),
+            Shape::Sphere(s) => side.sign() * ((at - s.centre).length() - s.radius_m) + reach_m > 0.0,
+            Shape::Mesh(_) => true,
+        }
+    })
+}
+
+/// A lower limit of the angle between the normal and any direction from the aperture to the source, rad.
+pub(crate) fn smallest_angle_rad(scene: &Scene, pose: &Pose, reach_m: f64, source: &Source) -> f64 {
+    match &source.emitter {
+        Emitter::Point { at } => smallest_angle_of_ball_rad(pose, reach_m, *at, 0.0),
+        Emitter::Directional { travels } => angle_rad(pose.normal, -*travels),
+        Emitter::Area { elements } => elements
+            .iter()
+            .map(|&(e, _)| smallest_angle_of_shape_rad(pose, reach_m, &scene.elements[e].shape))
+            .fold(f64::INFINITY, f64::min),
+        Emitter::Environment => 0.0,
+    }
+}
+
+/// The same for one shape.
+pub(crate) fn smallest_angle_of_shape_rad(pose: &Pose, reach_m: f64, shape: &Shape) -> f64 {
+    let (centre, radius) = shape.bounding_sphere();
+    smallest_angle_of_ball_rad(pose, reach_m, centre, radius)
+}
+
+fn smallest_angle_of_ball_rad(pose: &Pose, reach_m: f64, centre: DVec3, radius_m: f64) -> f64 {
+    let to = centre - pose.at;
+    let (distance, radius) = (to.length(), radius_m + reach_m);
+    if distance <= radius {
+        return 0.0;
+    }
+    angle_rad(pose.normal, to) - (radius / distance).asin()
+}
+
+/// Angle between two vectors, without the loss of digits of an arc cosine.
+pub(crate) fn angle_rad(a: DVec3, b: DVec3) -> f64 {
+    a.cross(b).length().atan2(a.dot(b))
+}
+
+/// The straight ways from a source to all poses of an instrument.
+pub(crate) struct Shafts {
+    centre: DVec3,
+    radius_m: f64,
+    /// Per element: below the horizon of every pose, or outside every acceptance.
+    unseen: Vec<bool>,
+    /// Per element: lowest and highest distance of the receivers from its plane, or from its sphere's centre less the radius, m.
+    apart: Vec<(f64, f64)>,
+}
+
+impl Shafts {
+    pub(crate) fn new(scene: &Scene, instrument: &Instrument) -> Shafts {
+        let reach = instrument.sensor.aperture.radius_m();
+        let limit = instrument.sensor.acceptance.limit_rad();
+        let (low, high) = instrument
+            .poses
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p.at), high.max(p.at)));
+        let centre = low + 0.5 * (high - low);
+        let radius_m = instrument.poses.iter().map(|p| (p.at - centre).length()).fold(0.0, f64::max) + reach;
+        let unseen = scene
+            .elements
+            .iter()
+            .map(|e| {
+                instrument.poses.iter().all(|p| {
+                    e.shape.extent_along(p.at, p.normal).1 <= 0.0
+                        || (limit < 0.5 * PI && smallest_angle_of_shape_rad(p, reach, &e.shape) > limit)
+                })
+            })
+            .collect();
+        let apart = scene
+            .elements
+            .iter()
+            .map(|e| {
+                let mut range = (f64::INFINITY, f64::NEG_INFINITY);
+                for p in &instrument.poses {
+                    let (low, high) = match &e.shape {
+                        Shape::Rectangle(r) => around(r.normal().dot(p.at - r.centre), r.normal().cross(p.normal).length() * reach),
+                        Shape::Disc(d) => around(d.normal.dot(p.at - d.centre), d.normal.cross(p.normal).length() * reach),
+                        Shape::Sphere(s) => around((p.at - s.centre).length() - s.radius_m, reach),
+                        Shape::Mesh(_) => (f64::NEG_INFINITY, f64::INFINITY),
+                    };
+                    range = (range.0.min(low), range.1.max(high));
+                }
+                range
+            })
+            .collect();
+        Shafts { centre, radius_m, unseen, apart }
+    }
+
+    /// Whether it is proved that nothing stands between the source and any pose.
+    pub(crate) fn clear(&self, scene: &Scene, source: &Source) -> bool {
+        let elements = scene.elements.iter().enumerate();
+        match &source.emitter {
+            Emitter::Environment => self.unseen.iter().all(|&u| u),
+            Emitter::Directional { travels } => {
+                let mut rest = elements.filter(|(e, _)| !self.unseen[*e]);
+                rest.all(|(_, element)| {
+                    let (centre, radius) = element.shape.bounding_sphere();
+                    let to = centre - self.centre;
+                    let along = -to.dot(*travels);
+                    let aside = (to + along * *travels).length();
+                    let sum = self.radius_m + radius;
+                    aside > sum || along < -sum
+                })
+            }
+            Emitter::Point { at } => {
+                let mut rest = elements.filter(|(e, _)| !self.unseen[*e]);
+                rest.all(|(e, element)| {
+                    let from = match &element.shape {
+                        Shape::Rectangle(r) => r.normal().dot(*at - r.centre),
+                        Shape::Disc(d) => d.normal.dot(*at - d.centre),
+                        Shape::Sphere(s) => (*at - s.centre).length() - s.radius_m,
+                        Shape::Mesh(_) => f64::NAN,
+                    };
+                    self.same_side(e, &element.shape, (from, from)) || self.beside(&element.shape, *at, 0.0)
+                })
+            }
+            Emitter::Area { elements: pieces } => pieces.iter().all(|&(piece, side)| {
+                let shape = &scene.elements[piece].shape;
+                let (centre, radius) = shape.bounding_sphere();
+                elements.clone().filter(|(e, _)| !self.unseen[*e]).all(|(e, element)| {
+                    if e == piece {
+                        return match shape {
+                            Shape::Mesh(m) => m.is_convex_closed() && side == Side::Front,
+                            _ => true,
+                        };
+                    }
+                    behind(shape, side, &element.shape)
+                        || self.same_side(e, &element.shape, span(&element.shape, shape))
+                        || self.beside(&element.shape, centre, radius)
+                })
+            }),
+        }
+    }
+
+    /// Whether receivers and source are on the same side of a plane element, or both within a sphere.
+    fn same_side(&self, element: usize, shape: &Shape, source: (f64, f64)) -> bool {
+        let receivers = self.apart[element];
+        // Rounding of coordinates is forgiven to the same share of their size as coincident surfaces are.
+        let slack = 1e-12 * [receivers.0, receivers.1, source.0, source.1].into_iter().map(f64::abs).fold(0.0, f64::max);
+        let below = receivers.1 <= slack && source.1 <= slack;
+        let above = receivers.0 >= -slack && source.0 >= -slack;
+        below || (above && !matches!(shape, Shape::Sphere(_)))
+    }
+
+    /// Whether the ball about the element stays outside the hull of the balls about receivers and source.
+    fn beside(&self, shape: &Shape, source_centre: DVec3, source_radius_m: f64) -> bool {
+        let (centre, radius) = shape.bounding_sphere();
+        // The hull is the union of balls along the axis; the gap to them is a convex function of the place on the axis.
+        let gap = |t: f64| {
+            let at = self.centre.lerp(source_centre, t);
+            (centre - at).length() - (self.radius_m + t * (source_radius_m - self.radius_m)) - radius
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+            if gap(a) < gap(b) { high = b } else { low = a }
+        }
+        gap(0.5 * (low + high)) > 0.0
+    }
+}
+
+fn around(middle: f64, half: f64) -> (f64, f64) {
+    (middle - half, middle + half)
+}
+
+/// Lowest and highest distance of the emitter from the plane of a flat occluder, or from a sphere's surface, m.
+fn span(occluder: &Shape, emitter: &Shape) -> (f64, f64) {
+    match occluder {
+        Shape::Rectangle(r) => emitter.extent_along(r.centre, r.normal()),
+        Shape::Disc(d) => emitter.extent_along(d.centre, d.normal),
+        Shape::Sphere(s) => {
+            let (centre, radius) = emitter.bounding_sphere();
+            around((centre - s.centre).length() - s.radius_m, radius)
+        }
+        Shape::Mesh(_) => (f64::NEG_INFINITY, f64::INFINITY),
+    }
+}
+
+/// Whether the occluder lies wholly behind the plane of a flat emitter, where no light of it goes.
+fn behind(emitter: &Shape, side: Side, occluder: &Shape) -> bool {
+    let behind_plane = |centre: DVec3, normal: DVec3| {
+        let (low, high) = occluder.extent_along(centre, side.sign() * normal);
+        high <= 1e-12 * low.abs()
+    };
+    match emitter {
+        Shape::Rectangle(r) => behind_plane(r.centre, r.normal()),
+        Shape::Disc(d) => behind_plane(d.centre, d.normal),
+        Shape::Sphere(_) | Shape::Mesh(_) => false,
+    }
+}
