@@ -4,4 +4,8 @@ pub mod geometry;
 pub mod math;
 pub mod metrology;
 pub mod quantity;
+pub mod scene;
+pub mod sensor;
+pub mod source;
 pub mod spectrum;
+pub mod surface;

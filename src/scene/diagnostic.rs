@@ -79,6 +79,17 @@ impl Diagnostic {
         problem
     }
 
+    /// A problem at a column of a line of a file that is not a document; what is marked ends at the next comma or blank.
+    #[must_use]
+    pub fn of_column(file: &str, line: usize, column: usize, text: &str, message: impl Into<String>, help: impl Into<String>) -> Self {
+        let mut problem = Self::of_line(file, line, text, message, Some(help.into()).filter(|h| !h.is_empty()));
+        problem.column = column.max(1);
+        let marked = text.chars().skip(problem.column - 1).take_while(|c| !",; \t\r".contains(*c)).count();
+        problem.end_column = problem.column + marked.max(1);
+        problem.excerpt = (!text.trim().is_empty()).then(|| shortened(text.trim_end(), problem.column - 1));
+        problem
+    }
+
     /// A problem of a part of a document: the bytes `span`.
     #[must_use]
     pub fn at(document: &Document, span: &Range<usize>, path: &str, message: impl Into<String>, help: Option<String>) -> Self {
@@ -147,7 +158,7 @@ impl fmt::Display for Diagnostics {
 }
 
 /// Problems of one file that are reported at most; the others are counted.
-const MOST_PER_FILE: usize = 50;
+const MOST_PER_FILE: usize = 101;
 
 /// A list of problems that grows while files are read.
 #[derive(Debug, Default)]

@@ -103,7 +103,10 @@ impl Document {
                 document.root = root;
                 Ok(document)
             }
-            Err(broken) => Err(Box::new(Diagnostic::at(&document, &broken.span, "", broken.message, broken.help(&document)))),
+            Err(broken) => {
+                let help = broken.help(&document);
+                Err(Box::new(Diagnostic::at(&document, &broken.span, "", broken.message, help)))
+            }
         }
     }
 

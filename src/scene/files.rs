@@ -138,6 +138,9 @@ pub(super) fn resolved(by: &str, name: &str, root: &str) -> Result<String, Strin
     if name.contains(['\\', '\0']) {
         return Err(format!("`{}` contains a character that file names must not have here", name.escape_default()));
     }
+    if name.ends_with('/') || matches!(name.rsplit('/').next(), Some("." | "..")) {
+        return Err(format!("`{name}` is a folder, not a file"));
+    }
     let path = normalised(&format!("{}/{name}", if folder_of(by).is_empty() { "." } else { folder_of(by) }));
     if within(&path, root) {
         return Ok(path);
