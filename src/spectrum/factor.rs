@@ -6,6 +6,7 @@
 //! | `Band` | `value` on the closed interval `from_nm`..`to_nm`, else 0 |
 //! | `Table` | piecewise linear |
 //! | `Gaussian` | `peak · exp(−(λ − centre)²/(2σ²))` |
+//! | `Proportional(a)` | `a λ`, λ in nm |
 //! | `Product`, `Sum`, `Scaled` | of other factors |
 //!
 //! Edges of bands and ends of tables belong to them: a line exactly on an edge passes. Two bands that share an edge and are
@@ -60,6 +61,8 @@ pub enum Factor {
         /// Standard deviation, nm.
         sigma_nm: f64,
     },
+    /// Proportional to wavelength: this much per nm. Photons per energy, and the responsivity of a quantum detector in A W⁻¹.
+    Proportional(f64),
     /// The product of all; of none, 1.
     Product(Vec<Factor>),
     /// The sum of all; of none, 0.
@@ -124,6 +127,7 @@ impl Factor {
                     0.0
                 }
             }
+            Self::Proportional(per_nm) => per_nm * nm,
             Self::Product(factors) => factors.iter().map(|factor| factor.at(nm)).product(),
             Self::Sum(factors) => factors.iter().map(|factor| factor.at(nm)).sum(),
             Self::Scaled(scale, factor) => scale * factor.at(nm),
@@ -133,7 +137,7 @@ impl Factor {
     /// Where the factor is not zero; possibly unbounded.
     pub fn support(&self) -> Support {
         match self {
-            Self::Constant(value) => {
+            Self::Constant(value) | Self::Proportional(value) => {
                 if *value == 0.0 {
                     Support::empty()
                 } else {
@@ -189,7 +193,7 @@ impl Factor {
             }
         };
         match self {
-            Self::Constant(_) => {}
+            Self::Constant(_) | Self::Proportional(_) => {}
             Self::Band { from_nm, to_nm, .. } => {
                 push(*from_nm);
                 push(*to_nm);
@@ -218,7 +222,7 @@ impl Factor {
     /// Wavelengths at which the factor may jump (edges of bands, ends of tables that are zero outside), nm, in no order.
     pub fn discontinuities(&self) -> Vec<f64> {
         match self {
-            Self::Constant(_) | Self::Gaussian { .. } => Vec::new(),
+            Self::Constant(_) | Self::Gaussian { .. } | Self::Proportional(_) => Vec::new(),
             Self::Band { from_nm, to_nm, .. } => vec![*from_nm, *to_nm],
             Self::Table(table) => {
                 let (from_nm, to_nm) = table.range_nm();
@@ -239,7 +243,7 @@ impl Factor {
     pub fn is_constant_over(&self, from_nm: f64, to_nm: f64) -> Option<f64> {
         match self {
             Self::Constant(value) => Some(*value),
-            Self::Band { .. } | Self::Table(_) => {
+            Self::Band { .. } | Self::Table(_) | Self::Proportional(_) => {
                 let (least, largest) = self.range_over(from_nm, to_nm);
                 (least == largest).then_some(least)
             }
@@ -292,6 +296,11 @@ impl Factor {
                 }
             }
             Self::Table(table) => table.range_over(from_nm, to_nm),
+            Self::Proportional(0.0) => (0.0, 0.0),
+            Self::Proportional(per_nm) => {
+                let ends = (per_nm * from_nm, per_nm * to_nm);
+                (ends.0.min(ends.1), ends.0.max(ends.1))
+            }
             Self::Gaussian { centre_nm, .. } => {
                 // A bell is monotonic on either side: its extremes are at the ends and, if inside, at the centre.
                 let nearest = self.at(centre_nm.max(from_nm).min(to_nm));
@@ -322,7 +331,7 @@ impl Factor {
     pub(super) fn degree(&self) -> Option<usize> {
         match self {
             Self::Constant(_) | Self::Band { .. } => Some(0),
-            Self::Table(_) => Some(1),
+            Self::Table(_) | Self::Proportional(_) => Some(1),
             Self::Gaussian { .. } => None,
             Self::Product(factors) => factors.iter().map(Self::degree).sum(),
             Self::Sum(factors) => factors
@@ -337,85 +346,5 @@ impl Factor {
 impl From<Table> for Factor {
     fn from(table: Table) -> Self {
         Self::Table(table)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::spectrum::Outside;
-    use proptest::prelude::*;
-
-    fn any_factor() -> impl Strategy<Value = Factor> {
-        let leaf = prop_oneof![
-            (-2.0..2.0_f64).prop_map(Factor::Constant),
-            (300.0..600.0_f64, 1.0..200.0_f64, -2.0..2.0_f64)
-                .prop_map(|(from, width, value)| Factor::band(from, from + width, value).unwrap()),
-            (0.0..2.0_f64, 300.0..800.0_f64, 0.1..100.0_f64)
-                .prop_map(|(p, c, s)| Factor::gaussian(p, c, s).unwrap()),
-            (prop::collection::vec(-1.0..1.0_f64, 2..8), any::<bool>()).prop_map(
-                |(values, hold)| {
-                    let wavelengths_nm =
-                        (0..values.len()).map(|i| 400.0 + 40.0 * i as f64).collect();
-                    let outside = if hold { Outside::Hold } else { Outside::Zero };
-                    Factor::Table(Table::new(wavelengths_nm, values, outside).unwrap())
-                }
-            ),
-        ];
-        leaf.prop_recursive(3, 12, 3, |inner| {
-            prop_oneof![
-                prop::collection::vec(inner.clone(), 0..3).prop_map(Factor::Product),
-                prop::collection::vec(inner.clone(), 0..3).prop_map(Factor::Sum),
-                (-2.0..2.0_f64, inner).prop_map(|(scale, factor)| factor.scaled(scale)),
-            ]
-        })
-    }
-
-    proptest! {
-        #[test]
-        fn range_support_and_constancy_agree_with_values(
-            factor in any_factor(), from in 200.0..900.0_f64, width in 0.0..300.0_f64, t in 0.0..=1.0_f64,
-        ) {
-            let nm = from + t * width;
-            let value = factor.at(nm);
-            let (least, largest) = factor.range_over(from, from + width);
-            prop_assert!(least - 1e-9 <= value && value <= largest + 1e-9);
-            prop_assert!(value == 0.0 || factor.support().contains(nm));
-            if let Some(constant) = factor.is_constant_over(from, from + width) {
-                prop_assert!((value - constant).abs() < 1e-12);
-            }
-        }
-
-        #[test]
-        fn nothing_jumps_where_no_discontinuity_is_listed(factor in any_factor(), nm in 200.0..900.0_f64) {
-            let listed = factor.discontinuities();
-            for nm in factor.breakpoints().into_iter().chain([nm]).filter(|nm| !listed.contains(nm)) {
-                prop_assert!((factor.at(nm.next_down()) - factor.at(nm.next_up())).abs() < 1e-9);
-            }
-        }
-    }
-
-    #[test]
-    fn a_line_on_the_edge_of_a_band_passes() {
-        let band = Factor::band(500.0, 600.0, 0.5).unwrap();
-        assert_eq!(
-            [
-                band.at(500.0),
-                band.at(600.0),
-                band.at(500.0_f64.next_down())
-            ],
-            [0.5, 0.5, 0.0]
-        );
-        assert_eq!(band.is_constant_over(500.0, 600.0), Some(0.5));
-        assert_eq!(band.is_constant_over(500.0, 601.0), None);
-        assert_eq!(band.is_constant_over(601.0, 700.0), Some(0.0));
-    }
-
-    #[test]
-    fn parameters_without_a_meaning_are_refused() {
-        assert!(Factor::band(500.0, 500.0, 1.0).is_err());
-        assert!(Factor::band(f64::NAN, 500.0, 1.0).is_err());
-        assert!(Factor::gaussian(1.0, 500.0, 0.0).is_err());
-        assert!(Factor::gaussian(f64::INFINITY, 500.0, 1.0).is_err());
     }
 }

@@ -18,6 +18,7 @@
 //! | `density` | continuum and lines |
 //! | `black_body` | Planck's law |
 //! | `product_integral` | exact integrals of products |
+//! | `term` | a density times factors, cut into smooth pieces |
 //! | `quadrature` | few wavelengths and positive weights for path products |
 //! | `photometry` | radiant, luminous and photon totals |
 //! | `table_text` | text of a curve file to columns, or all its problems |
@@ -28,10 +29,15 @@ mod density;
 mod error;
 mod factor;
 mod gauss_legendre;
+pub mod library;
+pub mod photometry;
 mod product_integral;
 mod scaled_number;
 mod support;
 mod table;
+mod table_row;
+pub mod table_text;
+mod term;
 
 pub use density::{Continuum, Density, Line};
 pub use error::SpectrumError;

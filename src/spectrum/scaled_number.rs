@@ -10,11 +10,6 @@ pub(super) struct ScaledNumber {
 }
 
 impl ScaledNumber {
-    pub(super) const ONE: Self = Self {
-        mantissa: 1.0,
-        exponent: 0,
-    };
-
     /// `value` without loss.
     pub(super) fn new(value: f64) -> Self {
         if value == 0.0 || !value.is_finite() {

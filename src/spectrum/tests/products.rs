@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use proptest::prelude::*;
 
-use super::*;
+use crate::spectrum::*;
 
 fn close(value: f64, reference: f64, relative: f64) -> bool {
     (value - reference).abs() <= relative * reference.abs()

@@ -1,0 +1,87 @@
+//! One spectrum in three systems of quantities: radiant, luminous, photon.
+//!
+//! | system | total of a density φ in W nm⁻¹ | unit |
+//! |---|---|---|
+//! | radiant | `∫ φ dλ` | W |
+//! | luminous | `K_m ∫ φ V dλ`, `K_m` = 683.002 lm W⁻¹ | lm |
+//! | photon | `∫ φ λ/(hc) dλ` | s⁻¹; divided by N_A, mol s⁻¹ |
+//!
+//! The same functions turn W m⁻² into lx and W m⁻² sr⁻¹ into cd m⁻²: what is per area or per solid angle stays so.
+//! The SI fixes 683 lm W⁻¹ at 540 THz, which is 555.016 nm in standard air; V(λ) is tabulated in air with its peak at 555 nm,
+//! so `K_m = 683/V(555.016 nm) = 683.002` (ISO 23539).
+
+use super::black_body::{PLANCK_J_S, SPEED_OF_LIGHT_M_S};
+use super::{Density, Factor};
+
+/// Largest luminous efficacy of radiation for photopic vision, wavelengths in air, lm W⁻¹.
+pub const MAXIMUM_LUMINOUS_EFFICACY_LM_W: f64 = 683.002;
+
+/// Avogadro constant, mol⁻¹ (SI, exact).
+const AVOGADRO_MOL: f64 = 6.022_140_76e23;
+
+/// Photons per energy, `λ/(hc)`, J⁻¹: what turns a spectral flux in W into photons per second.
+pub fn photons_per_joule() -> Factor {
+    Factor::Proportional(1e-9 / (PLANCK_J_S * SPEED_OF_LIGHT_M_S))
+}
+
+/// Radiant total, in the density's unit times nm (W for W nm⁻¹).
+pub fn radiant(density: &Density) -> f64 {
+    density.total()
+}
+
+/// Luminous total through the luminous efficiency `v` (`library::v_lambda()`): lm for W nm⁻¹, lx for W m⁻² nm⁻¹.
+pub fn luminous(density: &Density, v: &Factor) -> f64 {
+    density.integral(&[v, &Factor::Constant(MAXIMUM_LUMINOUS_EFFICACY_LM_W)])
+}
+
+/// Photons per second for W nm⁻¹, photons s⁻¹ m⁻² for W m⁻² nm⁻¹.
+pub fn photons(density: &Density) -> f64 {
+    density.integral(&[&photons_per_joule()])
+}
+
+/// Photons in mol s⁻¹ for W nm⁻¹, mol s⁻¹ m⁻² for W m⁻² nm⁻¹.
+pub fn photons_mol(density: &Density) -> f64 {
+    density.integral(&[&photons_per_joule(), &Factor::Constant(1.0 / AVOGADRO_MOL)])
+}
+
+/// Luminous efficacy of radiation, lm W⁻¹; `None` for a density that is zero.
+pub fn luminous_efficacy_lm_w(density: &Density, v: &Factor) -> Option<f64> {
+    Some(MAXIMUM_LUMINOUS_EFFICACY_LM_W * density.mean_of(v)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_watt_at_555_nm_is_683_lumens_and_2_8e18_photons() {
+        let laser = Density::line(555.0, 1.0).unwrap();
+        let v = Factor::Constant(1.0);
+        assert_eq!(luminous(&laser, &v), 683.002);
+        // Photon energy hc/λ = 1239.841984 eV nm / 555 nm, 1 eV = 1.602176634e-19 J.
+        let expected = 1.0 / (1239.841_984_332 / 555.0 * 1.602_176_634e-19);
+        assert!((photons(&laser) / expected - 1.0).abs() < 1e-11);
+        assert!((photons_mol(&laser) * 6.022_140_76e23 / expected - 1.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn photons_of_a_black_body_follow_the_third_power_of_temperature() {
+        // Photon radiance 2c (kT/(hc))³ Γ(3) ζ(3); Γ(3) ζ(3) = 2 · 1.2020569031595942.
+        for kelvin in [1.0_f64, 300.0, 2856.0, 1e7] {
+            let wavenumber =
+                1e9 * kelvin / super::super::black_body::SECOND_RADIATION_CONSTANT_NM_K;
+            let expected =
+                2.0 * SPEED_OF_LIGHT_M_S * wavenumber.powi(3) * 2.0 * 1.202_056_903_159_594_2;
+            let found = photons(&Density::black_body(kelvin).unwrap());
+            assert!(
+                (found / expected - 1.0).abs() < 1e-11,
+                "{kelvin} K: {found:e} against {expected:e}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_density_of_nothing_has_no_efficacy() {
+        assert_eq!(luminous_efficacy_lm_w(&Density::zero(), &Factor::ONE), None);
+    }
+}

@@ -1,0 +1,6 @@
+//! Tests of this layer that are longer than their file would bear.
+
+mod factors;
+mod library;
+mod products;
+mod table_text;
