@@ -200,8 +200,11 @@ impl Budget {
         if coverage_probability.is_nan() || coverage_probability <= 0.0 {
             return None;
         }
-        let coverage_factor = self.coverage_factor(coverage_probability)?;
         let combined = self.combined_standard_uncertainty();
+        if !combined.is_finite() {
+            return None;
+        }
+        let coverage_factor = self.coverage_factor(coverage_probability)?;
         Some(Expanded {
             coverage_probability,
             coverage_factor,

@@ -68,6 +68,7 @@ pub fn spread_upper_factor(degrees_of_freedom: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::distribution::normal_quantile;
     use super::*;
     use proptest::prelude::*;
 
@@ -98,36 +99,34 @@ mod tests {
         }
     }
 
+    /// A uniform number for each counter (finaliser of SplitMix64).
+    fn uniform(counter: u64) -> f64 {
+        let z = counter.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (((z ^ (z >> 31)) >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    }
+
     #[test]
     fn the_upper_limit_holds_in_nineteen_of_twenty_normal_samples() {
-        // Normal replicates by stratified quantiles in a scrambled order, so that no random number is needed: the
-        // share of samples whose limit lies above the true spread has to be near 0.95.
-        let (samples, size) = (4000usize, 4usize);
-        let total = samples * size;
-        let mut covered = 0;
-        for i in 0..samples {
-            let normal: Vec<f64> = (0..size)
-                .map(|j| {
-                    // A permutation of 0..total: the multiplier is prime and does not divide it.
-                    let index = ((i * size + j) * 7919 * 104_729 + 31) % total;
-                    // Bits are mixed to break the lattice of the permutation.
-                    let mixed = (index as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-                    let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-                    let p = ((mixed ^ (mixed >> 32)) >> 11) as f64 / (1u64 << 53) as f64;
-                    super::super::distribution::normal_quantile(p).unwrap()
+        for size in [2, 4, 16] {
+            let samples = 4000;
+            let covered = (0..samples)
+                .filter(|sample| {
+                    let normal: Vec<f64> = (0..size)
+                        .map(|i| normal_quantile(uniform(sample * size + i + 1)).unwrap())
+                        .collect();
+                    let limit = Replicates::evaluate(&normal)
+                        .unwrap()
+                        .upper_standard_uncertainty();
+                    limit >= 1.0 / (size as f64).sqrt()
                 })
-                .collect();
-            let r = Replicates::evaluate(&normal).unwrap();
-            if r.upper_standard_uncertainty() >= 1.0 / (size as f64).sqrt() {
-                covered += 1;
-            }
+                .count();
+            // Four standard deviations of the binomial distribution.
+            let share = covered as f64 / samples as f64;
+            let spread = (CONFIDENCE * (1.0 - CONFIDENCE) / samples as f64).sqrt();
+            assert!((share - CONFIDENCE).abs() < 4.0 * spread, "{size}: {share}");
         }
-        // Four standard deviations of the binomial distribution.
-        let share = covered as f64 / samples as f64;
-        assert!(
-            (share - 0.95).abs() < 4.0 * (0.95 * 0.05 / samples as f64).sqrt(),
-            "{share}"
-        );
     }
 
     proptest! {

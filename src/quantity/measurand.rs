@@ -1,6 +1,6 @@
 //! What a reading is a reading of, as run-time data: name, symbol and unit.
 //!
-//! Variants that are cells of the [`table`](super::table) take their words from it.
+//! Variants that are cells of the [`table`] take their words from it.
 //! Source of the terms: CIE S 017 (ILV); EMVA 1288 for the signals of a camera.
 
 use super::table::{self, Cell};

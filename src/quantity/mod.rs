@@ -6,12 +6,14 @@
 //! | file | holds |
 //! |---|---|
 //! | [`constants`] | exact constants of the SI and the convention for wavelengths and lumens |
+//! | [`air`] | wavelength in air and in vacuum |
 //! | [`table`] | the table as types, with name, symbol and unit of every cell |
 //! | [`extent`] | distance, area, solid angle, étendue, duration |
 //! | [`relation`] | the physical products between cells and extents |
 //! | [`photon`] | photons of monochromatic radiation |
 //! | [`measurand`] | the same words as run-time data, for readings and reports |
 
+pub mod air;
 pub mod constants;
 pub mod extent;
 pub mod measurand;

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! λ is the wavelength **in vacuum**: the energy of a photon belongs to its frequency, and the wavelength in air is
-//! shorter by 2.8e-4. For a spectrum the factor λ/(hc) belongs under the integral; factors such as 4.57 µmol/J hold for
+//! shorter by 2.8e-4 ([`wavelength_in_vacuum_nm`](super::air::wavelength_in_vacuum_nm)). For a spectrum the factor λ/(hc) belongs under the integral; factors such as 4.57 µmol/J hold for
 //! one spectrum only.
 //!
 //! Source: BIPM, *The International System of Units*, 9th edition, appendix 3.

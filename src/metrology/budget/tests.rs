@@ -98,6 +98,7 @@ fn what_is_not_a_number_is_never_covered() {
     for p in [0.0, 1.0, -0.5, 2.0, f64::NAN] {
         assert_eq!(budget(&[(1.0, 5.0)]).expanded_at(p), None);
     }
+    assert_eq!(budget(&[(f64::MAX, 5.0), (f64::MAX, 5.0)]).expanded(), None);
     let unknown = budget(&[(f64::INFINITY, 5.0), (f64::NAN, 5.0)]);
     assert!(unknown.combined_standard_uncertainty().is_nan());
 }
