@@ -18,7 +18,7 @@ use super::spectrum_reader::{read_factor, read_spectrum, v_lambda};
 use crate::quantity::constants::{AVOGADRO_PER_MOL, K_M_LM_W, PLANCK_J_S, SPEED_OF_LIGHT_M_S};
 use crate::quantity::measurand::Measurand;
 use crate::sensor::{Acceptance, Aperture, Channel};
-use crate::spectrum::{Factor, Outside, Table};
+use crate::spectrum::{Factor, Outside};
 
 const READS: [&str; 9] = ["Irradiance", "Illuminance", "RadiantFlux", "LuminousFlux", "Radiance", "Luminance", "PhotonIrradiance", "Photocurrent", "Signal"];
 
@@ -81,14 +81,9 @@ pub(super) fn read_channel(value: &Value, aperture: Option<Aperture>, acceptance
     };
     let (name, mut responsivity) = (name?, responsivity?);
     if quantity == "PhotonIrradiance" {
-        responsivity = Factor::Product(vec![responsivity, wavelength_m()?]);
+        responsivity = Factor::Product(vec![responsivity, Factor::Proportional(1e-9)]);
     }
     Some(Channel { name: name.into(), responsivity, reads: measurand, scale })
-}
-
-/// The wavelength in metres as a factor, from 1 nm to 1 mm.
-fn wavelength_m() -> Option<Factor> {
-    Table::from_rows(&[(1.0, 1e-9), (1e6, 1e-3)], Outside::Zero).ok().map(Factor::Table)
 }
 
 /// What a luminous channel indicates per unit of weighted irradiance, lm/W.

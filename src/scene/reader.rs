@@ -52,8 +52,6 @@ pub fn scene_from_text(text: &str) -> Result<Scene, Diagnostics> {
 pub(super) struct Places<'d> {
     /// One for each source.
     pub(super) sources: Vec<Value<'d>>,
-    /// One for each object, with the indices of its elements.
-    pub(super) objects: Vec<(Value<'d>, std::ops::Range<usize>)>,
     /// One for each instrument.
     pub(super) instruments: Vec<Value<'d>>,
 }
@@ -77,9 +75,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
     let mut names = Names::default();
     for item in objects {
         let name = names.take(&item, "object", reading);
-        let first = scene.elements.len();
         scene.elements.extend(read_object(&item, name, &surfaces, reading).unwrap_or_default());
-        places.objects.push((item, first..scene.elements.len()));
     }
     for item in sources {
         let name = names.take(&item, "source", reading);
