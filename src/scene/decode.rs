@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::diagnostic::{Diagnostic, Problems};
 use super::document::{Body, Document, Field, Kind, Node};
-use super::nearest::suggestion;
+use super::nearest::{nearest, suggestion};
 use crate::math::DVec3;
 
 /// Largest and smallest length that is taken for a length, m.
@@ -76,7 +76,11 @@ impl<'d> Value<'d> {
         if allowed.contains(&name) {
             return Some(name);
         }
-        let help = suggestion(name, allowed);
+        let help = match &self.node.kind {
+            // A name in quotes where the bare name belongs.
+            Kind::Text(text) if nearest(text, allowed.iter().copied()).is_some() => format!("{}; write it without quotes", suggestion(text, allowed)),
+            _ => suggestion(name, allowed),
+        };
         if name.is_empty() {
             let found = self.described();
             self.problem(problems, format!("{what} is expected, not {found}"), help);
@@ -128,7 +132,8 @@ impl<'d> Value<'d> {
         match &self.node.kind {
             Kind::Number(x) if x.is_finite() => Some(*x),
             Kind::Number(x) => {
-                self.problem(problems, format!("the number is {}", if x.is_nan() { "not a number (NaN)" } else { "infinite" }), "write a finite number");
+                let found = if x.is_nan() { "NaN" } else { "an infinite one" };
+                self.problem(problems, format!("a finite number is expected, not {found}"), "write a number between -1e308 and 1e308");
                 None
             }
             _ => {
@@ -223,9 +228,15 @@ impl<'d> Value<'d> {
         let fields: &'d [Field] = match &self.node.kind {
             Kind::Struct { body: Body::Named(fields), .. } => fields,
             Kind::Struct { body: Body::Positional(items), .. } if items.is_empty() => &[],
+            Kind::Struct { name, .. } => {
+                let keys: Vec<String> = allowed.iter().map(|key| format!("{key}: …")).collect();
+                self.problem(problems, format!("the values of {what} are given with keys"), format!("write `{name}({})`", keys.join(", ")));
+                return None;
+            }
             _ => {
                 let found = self.described();
-                self.problem(problems, format!("{found} where {what} with keys is expected"), format!("write `(key: value, …)`; keys: {}", allowed.join(", ")));
+                let keys: Vec<String> = allowed.iter().map(|key| format!("{key}: …")).collect();
+                self.problem(problems, format!("{what} is expected, not {found}"), format!("write `({})`", keys.join(", ")));
                 return None;
             }
         };
@@ -237,7 +248,16 @@ impl<'d> Value<'d> {
                 self.problem_at(&field.name_span, problems, format!("the key `{}` is given twice in {what}", field.name), "keep one of them");
             }
         }
-        Some(Fields { owner: self.clone(), what: what.into(), fields })
+        // A key that was probably meant is not called missing as well.
+        let meant = fields.iter().filter(|field| !allowed.contains(&field.name.as_str())).filter_map(|field| nearest(&field.name, allowed.iter().copied()));
+        let meant = meant.map(str::to_string).collect();
+        Some(Fields { owner: self.clone(), what: what.into(), fields, meant })
+    }
+
+    /// Bytes of the value of `name`, by which a whole item is pointed at; of the item if it has none.
+    pub(super) fn title_span(&self) -> Range<usize> {
+        let Kind::Struct { body: Body::Named(fields), .. } = &self.node.kind else { return self.node.span.clone() };
+        fields.iter().find(|field| field.name == "name").map_or(self.node.span.clone(), |field| field.value.span.clone())
     }
 }
 
@@ -247,6 +267,8 @@ pub(super) struct Fields<'d> {
     pub(super) owner: Value<'d>,
     what: String,
     fields: &'d [Field],
+    /// Keys that unknown ones were probably meant to be.
+    meant: Vec<String>,
 }
 
 impl<'d> Fields<'d> {
@@ -263,7 +285,7 @@ impl<'d> Fields<'d> {
     /// The value of a key that must be given; `example` shows how it is written.
     pub(super) fn require(&self, key: &str, example: &str, problems: &mut Problems) -> Option<Value<'d>> {
         let value = self.get(key);
-        if value.is_none() {
+        if value.is_none() && !self.meant.iter().any(|meant| meant == key) {
             let span = self.owner.name_span();
             let span = if self.owner.name().is_empty() { span.start..span.start + 1 } else { span };
             self.owner.problem_at(&span, problems, format!("{} has no `{key}`", self.what), format!("add `{key}: {example}`"));

@@ -164,9 +164,15 @@ const MOST_PER_FILE: usize = 101;
 #[derive(Debug, Default)]
 pub(super) struct Problems {
     list: Vec<Diagnostic>,
+    first_file: String,
 }
 
 impl Problems {
+    /// No problems yet; those of `first_file` will be told first.
+    pub(super) fn new(first_file: &str) -> Self {
+        Self { list: Vec::new(), first_file: first_file.into() }
+    }
+
     /// Adds a problem.
     pub(super) fn add(&mut self, problem: Diagnostic) {
         self.list.push(problem);
@@ -177,9 +183,9 @@ impl Problems {
         self.list.len()
     }
 
-    /// All of them: file by file in the order in which the files were met, from the first line to the last.
+    /// All of them: file by file, the first file first and the others in the order in which the files were met, from the first line to the last.
     pub(super) fn finish(mut self) -> Diagnostics {
-        let mut files: Vec<String> = Vec::new();
+        let mut files: Vec<String> = vec![self.first_file.clone()];
         for problem in &self.list {
             if !files.contains(&problem.file) {
                 files.push(problem.file.clone());

@@ -86,7 +86,7 @@ fn parse(file: &str, text: &str, problems: &mut Problems) -> Option<DirectionalR
     let (mut theta_deg, mut values) = (Vec::new(), vec![Vec::new(); phi_deg.len()]);
     for row in rows {
         if row.cells.len() != header.cells.len() {
-            table.problem(&row, format!("{} columns where the first row has {}", row.cells.len(), header.cells.len()), "give θ and one value for each column of the first row");
+            table.problem(&row, format!("the row has {} of {} columns", row.cells.len(), header.cells.len()), "give θ and one value for each column of the first row");
             continue;
         }
         let numbers: Vec<Option<f64>> = row.cells.iter().map(|cell| table.number(&row, cell)).collect();

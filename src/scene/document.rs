@@ -172,14 +172,16 @@ impl<'t> Parser<'t> {
 
     fn broken(&self, message: impl Into<String>, allowed: Option<&str>) -> Broken {
         let span = self.at..self.at + self.next().map_or(0, char::len_utf8);
-        Broken { span, message: message.into(), allowed: allowed.map(Into::into), opened: self.open.last().copied() }
+        Broken { span, message: message.into(), allowed: allowed.map(Into::into), opened: None }
     }
 
     fn unexpected(&self, expected: &str) -> Broken {
-        match self.next() {
+        let mut broken = match self.next() {
             None => self.broken(format!("the file ends where {expected} is expected"), None),
             Some(c) => self.broken(format!("`{c}` where {expected} is expected"), None),
-        }
+        };
+        broken.opened = self.open.last().copied();
+        broken
     }
 
     fn eat(&mut self, token: &str) -> bool {
@@ -228,7 +230,7 @@ impl<'t> Parser<'t> {
             return Err(self.broken("an attribute `#![…]` at the start", Some("leave it out: no extension of the notation is needed")));
         }
         if self.next().is_none() {
-            return Err(self.broken("the file is empty", None));
+            return Err(self.broken("the file is empty", Some("a scene file holds `Scene(…)`, a sensor file `Sensor(…)`")));
         }
         let root = self.value()?;
         self.skip()?;
@@ -283,9 +285,7 @@ impl<'t> Parser<'t> {
     fn sequence<T>(&mut self, close: char, item: impl Fn(&mut Self) -> Parsed<T>) -> Parsed<Vec<T>> {
         if let Some(bracket) = self.next() {
             if self.open.len() >= DEEPEST_NESTING {
-                let mut broken = self.broken("brackets are nested too deeply", Some(&format!("at most {DEEPEST_NESTING} levels are read")));
-                broken.opened = None;
-                return Err(broken);
+                return Err(self.broken("brackets are nested too deeply", Some(&format!("at most {DEEPEST_NESTING} levels are read"))));
             }
             self.open.push((bracket, self.at));
             self.at += bracket.len_utf8();
@@ -372,7 +372,6 @@ impl<'t> Parser<'t> {
         value.map(|v| sign * v).ok_or_else(|| {
             let mut broken = self.broken(format!("`{}` is not a number", &self.text[start..self.at]), Some("write 0.3, -2, 1e-4"));
             broken.span = start..self.at.max(start + 1);
-            broken.opened = None;
             broken
         })
     }
@@ -436,7 +435,6 @@ impl<'t> Parser<'t> {
         found.ok_or_else(|| {
             let mut broken = self.broken("an unknown escape in a text", Some("write `\\\\` for one backslash; allowed: \\n \\r \\t \\0 \\\\ \\\" \\' \\xNN \\u{NNNN}"));
             broken.span = start..self.at;
-            broken.opened = None;
             broken
         })
     }

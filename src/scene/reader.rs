@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::checks;
 use super::decode::Value;
 use super::diagnostic::{Diagnostic, Diagnostics};
-use super::document::Document;
+use super::document::{Body, Document, Kind};
 use super::files::{Files, MemoryFiles, normalised, root_of, within};
 use super::instrument_reader::{MOST_POSES, read_instrument};
 use super::object_reader::read_object;
@@ -30,7 +30,7 @@ pub fn read_scene(path: &str, files: &dyn Files, root: Option<&str>) -> Result<S
         let help = "give the scene and the root both as relative or both as absolute paths, the scene inside the root".to_string();
         return Err(Diagnostics(vec![Diagnostic::of_file(&path, format!("the scene lies outside of the root `{root}`"), Some(help))]));
     }
-    let mut reading = Reading::new(files, root);
+    let mut reading = Reading::new(files, &path, root);
     let document = reading.first_document(&path);
     let scene = document.and_then(|document| read_document(&document, &mut reading));
     match scene {
@@ -100,7 +100,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
         let example = "instruments: [(name: \"meter\", sensor: \"../sensors/ideal-lux-meter.ron\", at: (0, 0, 0), facing: (0, 0, 1))]";
         match fields.get("instruments") {
             None => drop(fields.require("instruments", example.trim_start_matches("instruments: "), &mut reading.problems)),
-            Some(value) if matches!(value.node.kind, super::document::Kind::List(_)) => {
+            Some(value) if matches!(value.node.kind, Kind::List(_)) => {
                 value.problem(&mut reading.problems, "the scene has no instrument, so there is nothing to read", format!("write `{example}`"));
             }
             Some(_) => {}
@@ -119,7 +119,7 @@ struct Names(BTreeMap<String, (&'static str, usize)>);
 impl Names {
     /// The name of an object, source or instrument, which must be new.
     fn take<'d>(&mut self, item: &Value<'d>, what: &'static str, reading: &mut Reading) -> Option<&'d str> {
-        let super::document::Kind::Struct { body: super::document::Body::Named(fields), .. } = &item.node.kind else { return Some("") };
+        let Kind::Struct { body: Body::Named(fields), .. } = &item.node.kind else { return Some("") };
         let Some(field) = fields.iter().find(|field| field.name == "name") else {
             let span = item.node.span.start..item.node.span.start + 1;
             let article = if what == "source" { "a" } else { "an" };

@@ -30,8 +30,8 @@ pub(super) struct Reading<'f> {
 
 impl<'f> Reading<'f> {
     /// Nothing read yet. `root` is the folder that no name may leave.
-    pub(super) fn new(files: &'f dyn Files, root: String) -> Self {
-        Self { files, root, problems: Problems::default(), hash: 0, curves: BTreeMap::new(), sensors: BTreeMap::new(), meshes: BTreeMap::new() }
+    pub(super) fn new(files: &'f dyn Files, scene: &str, root: String) -> Self {
+        Self { files, root, problems: Problems::new(scene), hash: 0, curves: BTreeMap::new(), sensors: BTreeMap::new(), meshes: BTreeMap::new() }
     }
 
     /// The path of the file that a value names.
@@ -66,7 +66,7 @@ impl<'f> Reading<'f> {
                         (format!("there is no {what} `{path}`"), help)
                     }
                     FileProblem::TooLong { bytes } => {
-                        (format!("the {what} `{path}` has {bytes} bytes"), format!("at most {most_bytes} bytes are read"))
+                        (format!("the {what} `{path}` has {bytes} bytes"), format!("at most {most_bytes} bytes ({} MiB) are read", most_bytes >> 20))
                     }
                     FileProblem::Unreadable(why) => (format!("the {what} `{path}` cannot be read: {why}"), String::new()),
                 };
@@ -88,10 +88,11 @@ impl<'f> Reading<'f> {
             Err(error) => {
                 let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
                 let line = 1 + good.iter().filter(|&&b| b == b'\n').count();
-                let help = "save the file as UTF-8 text".to_string();
-                let mut problem = Diagnostic::of_file(path, format!("line {line} holds bytes that are not UTF-8 text"), Some(help));
-                problem.line = line;
-                self.problems.add(problem);
+                let start = good.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
+                let column = 1 + String::from_utf8_lossy(&good[start..]).chars().count();
+                let text = String::from_utf8_lossy(&error.as_bytes()[start..]);
+                let text = text.lines().next().unwrap_or_default();
+                self.problems.add(Diagnostic::of_column(path, line, column, text, "the file holds bytes that are not UTF-8 text", "save the file as UTF-8 text"));
                 None
             }
         }
@@ -113,7 +114,7 @@ impl<'f> Reading<'f> {
             }
             Err(problem) => {
                 let help = match problem {
-                    FileProblem::TooLong { .. } => Some(format!("at most {LONGEST_DOCUMENT_BYTES} bytes are read")),
+                    FileProblem::TooLong { .. } => Some(format!("at most {LONGEST_DOCUMENT_BYTES} bytes ({} MiB) are read", LONGEST_DOCUMENT_BYTES >> 20)),
                     FileProblem::Missing => {
                         let neighbours = self.files.neighbours(path);
                         let file = path.rsplit('/').next().unwrap_or(path);

@@ -62,7 +62,7 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
     for item in items.iter().flatten() {
         let Some(channel) = read_channel(item, aperture, acceptance.as_ref(), reading) else { continue };
         if names.contains(&channel.name) {
-            item.problem(&mut reading.problems, format!("two channels are called \"{}\"", channel.name), "give each its own name");
+            item.problem_at(&item.title_span(), &mut reading.problems, format!("two channels are called \"{}\"", channel.name), "give each its own name");
         }
         names.push(channel.name.clone());
         list.push(channel);

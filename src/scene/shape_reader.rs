@@ -22,6 +22,15 @@ pub(super) const SHAPES: [&str; 6] = ["Rectangle", "Quad", "Disc", "Sphere", "Bo
 /// How far from perpendicular the edges of a quad may be: the cosine of the angle between them.
 const PERPENDICULAR: f64 = 1e-9;
 
+/// Notes what is wrong with the place of something whose shape is not known.
+pub(super) fn check_place(fields: &Fields, reading: &mut Reading) {
+    for key in ["at", "facing", "up", "turned_deg"] {
+        if let Some(value) = fields.get(key) {
+            let _ = value.vector(&mut reading.problems);
+        }
+    }
+}
+
 /// Reads one of [`SHAPES`], with the keys of the object or source that say where it is.
 pub(super) fn read_shape(shape: &Value, fields: &Fields, reading: &mut Reading) -> Option<Vec<Shape>> {
     let refuse = |keys: &[&str], why: &str, reading: &mut Reading| fields.refuse(keys, why, &mut reading.problems);
@@ -73,6 +82,7 @@ pub(super) fn read_shape(shape: &Value, fields: &Fields, reading: &mut Reading) 
         }
         _ => {
             shape.variant("a shape", &SHAPES, &mut reading.problems);
+            check_place(fields, reading);
             None
         }
     }
@@ -90,8 +100,9 @@ fn read_size(shape: &Value, reading: &mut Reading) -> Option<DVec3> {
     if size_m.min_element() >= SMALLEST_M && size_m.max_element() <= LARGEST_M {
         return Some(size_m);
     }
-    let name = ["x", "y", "z"][(0..3).find(|&i| !(SMALLEST_M..=LARGEST_M).contains(&size_m[i])).unwrap_or(0)];
-    size.problem(problems, format!("the size of the box along {name} is not a size"), format!("allowed: {SMALLEST_M:e} m to {LARGEST_M:e} m"));
+    let axis = (0..3).find(|&i| !(SMALLEST_M..=LARGEST_M).contains(&size_m[i])).unwrap_or(0);
+    let name = (["x", "y", "z"][axis], size_m[axis]);
+    size.problem(problems, format!("the size of the box along {} is {:e} m", name.0, name.1), format!("allowed: {SMALLEST_M:e} m to {LARGEST_M:e} m"));
     None
 }
 

@@ -10,9 +10,9 @@
 use super::Element;
 use super::decode::{Fields, Value};
 use super::reading::Reading;
-use super::shape_reader::{SHAPES, read_shape};
+use super::shape_reader::{SHAPES, check_place, read_shape};
 use super::spectrum_reader::{read_spectrum, v_lambda};
-use super::strength::{Emission, read_strength};
+use super::strength::{Emission, check_strength, read_strength};
 use super::surface_reader::{BLACK, Surfaces};
 use crate::geometry::shape::Side;
 use crate::source::{Emitter, Source};
@@ -41,6 +41,10 @@ pub(super) fn read_source(value: &Value, name: Option<&str>, surfaces: &Surfaces
     if !SHAPES.contains(&shape.name()) {
         let allowed: Vec<&str> = ["Point", "Directional", "Environment"].into_iter().chain(SHAPES).collect();
         shape.variant("the shape of a source", &allowed, &mut reading.problems);
+        check_place(&fields, reading);
+        if let Some(strength) = &strength {
+            check_strength(strength, &mut reading.problems);
+        }
         return None;
     }
     let shapes = read_shape(&shape, &fields, reading);

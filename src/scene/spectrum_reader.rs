@@ -22,6 +22,7 @@ use super::decode::Value;
 use super::diagnostic::Diagnostic;
 use super::document::Kind;
 use super::files::LONGEST_CURVE_BYTES;
+use super::nearest::nearest;
 use super::reading::Reading;
 use crate::spectrum::table_text::{TextRules, parse_bytes};
 use crate::spectrum::{Density, Factor, Line, Outside, SpectrumError, Table, library};
@@ -52,16 +53,20 @@ fn is_file(name: &str) -> bool {
 pub(super) fn read_spectrum(value: &Value, reading: &mut Reading) -> Option<Density> {
     if let Kind::Text(name) = &value.node.kind {
         if is_file(name) {
-            let table = read_curve(value, name, "spectrum", reading)?;
+            let table = read_curve(value, name, reading)?;
             let density = Density::table(table);
             return checked(value, density, reading);
         }
         return library::density(name).map_err(|error| unknown(value, &error, "spectrum", reading)).ok();
     }
-    match value.variant("a spectrum", &SPECTRA, &mut reading.problems)? {
+    if !SPECTRA.contains(&value.name()) {
+        refuse(value, "a spectrum", "\"D65\" (library), \"lamp.csv\" (file)", &SPECTRA, library::density(value.name()).is_ok(), reading);
+        return None;
+    }
+    match value.name() {
         "BlackBody" => {
             let item = value.positional(1, "BlackBody(2856)", &mut reading.problems)?.into_iter().next()?;
-            let temperature_k = item.number_in("the temperature", "above 0 K to 1e9 K", |t| t > 0.0 && t <= 1e9, &mut reading.problems)?;
+            let temperature_k = item.number_in("the temperature", "above 0 K, up to 1e9 K", |t| t > 0.0 && t <= 1e9, &mut reading.problems)?;
             checked(value, Density::black_body(temperature_k), reading)
         }
         "Line" => {
@@ -137,7 +142,7 @@ fn read_sum(value: &Value, reading: &mut Reading) -> Option<Density> {
 pub(super) fn read_factor(value: &Value, outside: Outside, reading: &mut Reading) -> Option<Factor> {
     match &value.node.kind {
         Kind::Number(_) => return value.number(&mut reading.problems).map(Factor::Constant),
-        Kind::Text(name) if is_file(name) => return read_curve(value, name, "curve", reading).map(|table| Factor::Table(table.with_outside(outside))),
+        Kind::Text(name) if is_file(name) => return read_curve(value, name, reading).map(|table| Factor::Table(table.with_outside(outside))),
         Kind::Text(name) => {
             let found = library::factor(name).map_err(|error| unknown(value, &error, "factor", reading)).ok()?;
             return Some(match found {
@@ -147,7 +152,11 @@ pub(super) fn read_factor(value: &Value, outside: Outside, reading: &mut Reading
         }
         _ => {}
     }
-    match value.variant("a factor (a number, a name or one of the following)", &FACTORS, &mut reading.problems)? {
+    if !FACTORS.contains(&value.name()) {
+        refuse(value, "a factor", "0.85 (constant), \"V\" (library), \"oak.csv\" (file)", &FACTORS, library::factor(value.name()).is_ok(), reading);
+        return None;
+    }
+    match value.name() {
         "Constant" => {
             let item = value.positional(1, "Constant(0.85)", &mut reading.problems)?.into_iter().next()?;
             item.number(&mut reading.problems).map(Factor::Constant)
@@ -183,6 +192,17 @@ pub(super) fn read_factor(value: &Value, outside: Outside, reading: &mut Reading
             Some(if name == "Product" { Factor::Product(parts) } else { Factor::Sum(parts) })
         }
     }
+}
+
+/// Notes that a value is neither a name nor one of the forms; `in_library` if it would be with quotes.
+fn refuse(value: &Value, what: &str, names: &str, forms: &[&str], in_library: bool, reading: &mut Reading) {
+    let found = value.described();
+    let help = match nearest(value.name(), forms.iter().copied()) {
+        _ if in_library => format!("names are written in quotes: \"{}\"", value.name()),
+        Some(name) => format!("did you mean `{name}`? allowed: {names}, {}", forms.join(", ")),
+        None => format!("allowed: {names}, {}", forms.join(", ")),
+    };
+    value.problem_at(&value.name_span(), &mut reading.problems, format!("{what} is expected, not {found}"), help);
 }
 
 /// A factor that is nowhere negative.
@@ -234,18 +254,21 @@ fn unknown(value: &Value, error: &library::LookupError, what: &str, reading: &mu
             let files = "a file name ends in .csv or .txt";
             (format!("the library has no {what} called \"{name}\""), format!("nearest: {}; {files}", near.join(", ")))
         }
-        other @ library::LookupError::OtherKind { .. } => (other.to_string(), String::new()),
+        other @ library::LookupError::OtherKind { .. } => {
+            let example = if what == "spectrum" { "write a spectrum such as \"A\", \"D65\", \"LED-B3\"" } else { "write a factor such as \"V\", a number, or the name of a curve file" };
+            (other.to_string(), example.into())
+        }
     };
     value.problem(&mut reading.problems, message, help);
 }
 
 /// Reads a curve file: wavelength in nm and one value.
-fn read_curve(value: &Value, name: &str, what: &str, reading: &mut Reading) -> Option<Table> {
+fn read_curve(value: &Value, name: &str, reading: &mut Reading) -> Option<Table> {
     let path = reading.path(value, name)?;
     if let Some(known) = reading.curves.get(&path) {
         return known.clone();
     }
-    let table = reading.bytes(value, &path, what, LONGEST_CURVE_BYTES).and_then(|bytes| parse_curve(&path, &bytes, reading));
+    let table = reading.bytes(value, &path, "curve file", LONGEST_CURVE_BYTES).and_then(|bytes| parse_curve(&path, &bytes, reading));
     reading.curves.insert(path, table.clone());
     table
 }

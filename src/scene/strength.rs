@@ -133,7 +133,13 @@ pub(super) fn read_strength(value: &Value, emission: Emission, spectrum: Option<
     let &(name, form, given, luminous) = FORMS.iter().find(|entry| entry.0 == value.name())?;
     if !fitting.iter().any(|entry| entry.0 == name) {
         let forms: Vec<&str> = fitting.iter().map(|entry| entry.1).collect();
-        value.problem_at(&value.name_span(), problems, format!("`{name}` does not say how strong {} is", emission.name()), format!("write one of {}", forms.join(", ")));
+        let hint = if given == Given::FluxDensity && emission.per_unit(Given::FluxDensityAt, 1.0).is_some() {
+            let at = if luminous { "Illuminance(lux: …, at_m: …)" } else { "Irradiance(watts_per_m2: …, at_m: …)" };
+            format!("it depends on the distance: `{at}` gives both; ")
+        } else {
+            String::new()
+        };
+        value.problem_at(&value.name_span(), problems, format!("`{name}` does not say how strong {} is", emission.name()), format!("{hint}write one of {}", forms.join(", ")));
         return None;
     }
     let (amount, at_m) = read_amount(value, name, form, given, problems)?;
@@ -153,7 +159,7 @@ pub(super) fn read_strength(value: &Value, emission: Emission, spectrum: Option<
     };
     if !(total > 0.0 && total.is_finite()) {
         let (why, help) = if luminous {
-            ("the spectrum has no light that the eye sees, so no luminous strength can be reached", "give the strength in watts, W/sr, W/m² or W/(m² sr), or another spectrum")
+            ("the spectrum has no light that the eye sees (V(λ) is zero beyond 360 nm to 830 nm), so no luminous strength can be reached", "give the strength in watts, W/sr, W/m² or W/(m² sr), or another spectrum")
         } else {
             ("the spectrum is zero at every wavelength", "give another spectrum")
         };
@@ -170,6 +176,15 @@ pub(super) fn read_strength(value: &Value, emission: Emission, spectrum: Option<
     }
 }
 
+/// Notes what is wrong with a strength by itself, for a source whose shape is not known.
+pub(super) fn check_strength(value: &Value, problems: &mut Problems) {
+    let names = FORMS.map(|form| form.0);
+    let Some(name) = value.variant("a strength", &names, problems) else { return };
+    if let Some(form) = FORMS.iter().find(|form| form.0 == name) {
+        let _ = read_amount(value, form.0, form.1, form.2, problems);
+    }
+}
+
 /// The number of a strength, and the distance at which it is given (1 m if it has none).
 fn read_amount(value: &Value, name: &str, form: &str, given: Given, problems: &mut Problems) -> Option<(f64, f64)> {
     let not_negative = |x: f64| x >= 0.0;
@@ -181,7 +196,7 @@ fn read_amount(value: &Value, name: &str, form: &str, given: Given, problems: &m
                 let found = fields.require(key, "0.5", problems)?;
                 match *key {
                     "at_m" => found.length_m("the distance", 1.0, problems),
-                    "efficiency" => found.number_in("the efficiency", "0 to 1", |x| (0.0..=1.0).contains(&x), problems),
+                    "efficiency" => found.number_in("the efficiency", "0 to 1 (40 % is written 0.4)", |x| (0.0..=1.0).contains(&x), problems),
                     _ => found.number_in(&format!("`{key}`"), "0 and above", not_negative, problems),
                 }
             })

@@ -43,7 +43,8 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
                 told.push(pair);
                 let (first, second) = (&scene.sources[pair.0].name, &scene.sources[pair.1].name);
                 let help = "move one of them towards where it shines, or make them one source whose spectrum is a `Sum`";
-                places.sources[pair.1].problem(problems, format!("the sources \"{first}\" and \"{second}\" emit from the same surface"), help);
+                let place = &places.sources[pair.1];
+                place.problem_at(&place.title_span(), problems, format!("the sources \"{first}\" and \"{second}\" emit from the same surface"), help);
             }
         }
     }

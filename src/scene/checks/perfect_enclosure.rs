@@ -37,7 +37,7 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
             if let Some(nm) = perfect_wavelength(&reflectances, source) {
                 let owner = &scene.elements[container.run.start].owner;
                 let message = format!("the reading has no finite value: at {nm} nm nothing in \"{owner}\" absorbs the light of \"{}\"", source.name);
-                place.problem(problems, message, "give the inside of the container a reflectance below 1, such as 0.99, or put something into it that absorbs");
+                place.problem_at(&place.title_span(), problems, message, "give the inside of the container a reflectance below 1, such as 0.99, or put something into it that absorbs");
             }
         }
     }
