@@ -1,12 +1,50 @@
-//! A validated scene: what the plan is made of.
+//! A validated scene: what the plan is made of, and the reader of scene and sensor files.
 //!
 //! ```text
-//! text ─ document.rs → values with their places ─ the readers → Scene, or every problem at once (diagnostic.rs)
+//! text ─ document.rs → values with their places ─ the readers → Scene ─ checks/ → Scene, or every problem at once (diagnostic.rs)
 //! ```
+//!
+//! | file | what it reads |
+//! |---|---|
+//! | `document` | text → tree of values with places |
+//! | `decode` | values → fields, numbers, vectors, names |
+//! | `files`, `reading` | the door to files, the root, what has been read already |
+//! | `placement`, `shape_reader`, `mesh_reader` | where things are, and what shape they have |
+//! | `spectrum_reader`, `surface_reader`, `strength` | spectra, factors, surfaces, how strong a source is |
+//! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
+//! | `sensor_reader`, `channel_reader`, `directional_table` | sensor files |
+//! | `reader` | the scene as a whole |
+//! | `checks` | what only the scene as a whole can show |
 
+mod channel_reader;
+mod checks;
+mod decode;
+pub mod diagnostic;
+mod directional_table;
+pub mod document;
+pub mod files;
 pub mod instrument;
+mod instrument_reader;
+mod mesh_reader;
+mod nearest;
+mod object_reader;
+mod placement;
+mod reader;
+mod reading;
+mod sensor_reader;
+mod shape_reader;
+mod source_reader;
+mod spectrum_reader;
+mod strength;
+mod surface_reader;
+#[cfg(test)]
+mod tests;
 
+pub use diagnostic::{Diagnostic, Diagnostics, Severity};
+pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};
+pub use instrument_reader::MOST_POSES;
+pub use reader::{read_scene, scene_from_text};
 
 use crate::geometry::shape::Shape;
 use crate::source::Source;

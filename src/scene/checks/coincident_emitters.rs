@@ -1,0 +1,97 @@
+//! Two emitters must not share a piece of surface: where they overlap, it is not defined which one is seen.
+//!
+//! Rectangles and discs overlap if they lie in one plane, face the same way and their outlines cross by more than a share of
+//! 1e-9; spheres and meshes if they are the same. Emitters that only touch are fine.
+
+use std::sync::Arc;
+
+use super::SAME;
+use crate::geometry::shape::{Shape, Side};
+use crate::math::DVec3;
+use crate::scene::Scene;
+use crate::scene::diagnostic::Problems;
+use crate::scene::reader::Places;
+use crate::source::Emitter;
+
+/// One emitting side.
+struct Emitting<'s> {
+    source: usize,
+    shape: &'s Shape,
+    side: Side,
+    centre: DVec3,
+    radius_m: f64,
+}
+
+/// Notes each pair of sources that overlap.
+pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
+    let mut emitting: Vec<Emitting> = Vec::new();
+    for (source, entry) in scene.sources.iter().enumerate() {
+        let Emitter::Area { elements } = &entry.emitter else { continue };
+        for &(element, side) in elements {
+            let shape = &scene.elements[element].shape;
+            let (centre, radius_m) = shape.bounding_sphere();
+            emitting.push(Emitting { source, shape, side, centre, radius_m });
+        }
+    }
+    // Swept along x: only neighbours whose extents overlap there are compared.
+    emitting.sort_by(|a, b| (a.centre.x - a.radius_m).total_cmp(&(b.centre.x - b.radius_m)));
+    let mut told: Vec<(usize, usize)> = Vec::new();
+    for (i, a) in emitting.iter().enumerate() {
+        for b in emitting[i + 1..].iter().take_while(|b| b.centre.x - b.radius_m <= a.centre.x + a.radius_m) {
+            let pair = (a.source.min(b.source), a.source.max(b.source));
+            if a.source != b.source && overlap(a, b) && !told.contains(&pair) {
+                told.push(pair);
+                let (first, second) = (&scene.sources[pair.0].name, &scene.sources[pair.1].name);
+                let help = "move one of them towards where it shines, or make them one source whose spectrum is a `Sum`";
+                let place = &places.sources[pair.1];
+                place.problem_at(&place.title_span(), problems, format!("the sources \"{first}\" and \"{second}\" emit from the same surface"), help);
+            }
+        }
+    }
+}
+
+fn overlap(a: &Emitting, b: &Emitting) -> bool {
+    if let (Shape::Mesh(m), Shape::Mesh(n)) = (a.shape, b.shape) {
+        return Arc::ptr_eq(m, n) && a.side == b.side;
+    }
+    if let (Shape::Sphere(s), Shape::Sphere(t)) = (a.shape, b.shape) {
+        let size = s.radius_m.max(t.radius_m);
+        return a.side == b.side && (s.centre - t.centre).length() <= SAME * size && (s.radius_m - t.radius_m).abs() <= SAME * size;
+    }
+    let (Some((n, m)), offset) = (emission_normal(a).zip(emission_normal(b)), b.centre - a.centre) else { return false };
+    let one_plane = offset.dot(n).abs() <= SAME * (a.radius_m + b.radius_m);
+    if n.cross(m).length() > SAME || n.dot(m) < 0.0 || !one_plane {
+        return false;
+    }
+    match (a.shape, b.shape) {
+        (Shape::Disc(d), Shape::Disc(e)) => offset.length() < (d.radius_m + e.radius_m) * (1.0 - SAME),
+        (Shape::Rectangle(r), Shape::Disc(d)) => reaches(r, d),
+        (Shape::Disc(d), Shape::Rectangle(r)) => reaches(r, d),
+        (Shape::Rectangle(r), Shape::Rectangle(s)) => [r.half_u, r.half_v, s.half_u, s.half_v].iter().all(|axis| {
+            // No gap along any of the four edge directions (separating axis theorem).
+            let half = |r: &crate::geometry::shape::Rectangle| axis.dot(r.half_u).abs() + axis.dot(r.half_v).abs();
+            axis.dot(offset).abs() < (half(r) + half(s)) * (1.0 - SAME)
+        }),
+        _ => false,
+    }
+}
+
+/// Whether a disc in the plane of a rectangle reaches into it.
+fn reaches(r: &crate::geometry::shape::Rectangle, d: &crate::geometry::shape::Disc) -> bool {
+    (d.centre - nearest_point(r, d.centre)).length() < d.radius_m * (1.0 - SAME)
+}
+
+/// The point of a rectangle that is closest to a point.
+pub(super) fn nearest_point(r: &crate::geometry::shape::Rectangle, point: DVec3) -> DVec3 {
+    let along = |half: DVec3| half * ((point - r.centre).dot(half) / half.length_squared()).clamp(-1.0, 1.0);
+    r.centre + along(r.half_u) + along(r.half_v)
+}
+
+/// The direction into which something flat emits.
+fn emission_normal(emitting: &Emitting) -> Option<DVec3> {
+    match emitting.shape {
+        Shape::Rectangle(r) => Some(r.normal() * emitting.side.sign()),
+        Shape::Disc(d) => Some(d.normal * emitting.side.sign()),
+        _ => None,
+    }
+}

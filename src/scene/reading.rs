@@ -1,0 +1,140 @@
+//! What is shared while a scene and the files that it mentions are read.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::decode::Value;
+use super::diagnostic::{Diagnostic, Problems};
+use super::document::Document;
+use super::files::{FileProblem, Files, LONGEST_DOCUMENT_BYTES, hashed, resolved};
+use super::nearest::nearest;
+use crate::geometry::mesh::Mesh;
+use crate::sensor::Sensor;
+use crate::spectrum::Table;
+
+/// Files that have been read, problems that have been found.
+pub(super) struct Reading<'f> {
+    files: &'f dyn Files,
+    root: String,
+    /// Problems of all files so far.
+    pub(super) problems: Problems,
+    /// Hash of everything that was read, file by file in the order of reading.
+    pub(super) hash: u64,
+    /// Curves by path; none for one that has problems.
+    pub(super) curves: BTreeMap<String, Option<Table>>,
+    /// Sensors by path; none for one that has problems.
+    pub(super) sensors: BTreeMap<String, Option<Arc<Sensor>>>,
+    /// Meshes by path and placement; none for one that has problems.
+    pub(super) meshes: BTreeMap<(String, [u64; 10]), Option<Arc<Mesh>>>,
+}
+
+impl<'f> Reading<'f> {
+    /// Nothing read yet. `root` is the folder that no name may leave.
+    pub(super) fn new(files: &'f dyn Files, scene: &str, root: String) -> Self {
+        Self { files, root, problems: Problems::new(scene), hash: 0, curves: BTreeMap::new(), sensors: BTreeMap::new(), meshes: BTreeMap::new() }
+    }
+
+    /// The path of the file that a value names.
+    pub(super) fn path(&mut self, mention: &Value, name: &str) -> Option<String> {
+        match resolved(&mention.document.file, name, &self.root) {
+            Ok(path) => Some(path),
+            Err(why) => {
+                let root = if self.root.is_empty() { "the current folder".to_string() } else { format!("`{}`", self.root) };
+                let help = format!("names are relative to the file that mentions them and stay within {root}; move the file there, or choose a root that holds both");
+                mention.problem(&mut self.problems, why, help);
+                None
+            }
+        }
+    }
+
+    /// The bytes of a file that a value mentions; `what` says what is expected in it.
+    pub(super) fn bytes(&mut self, mention: &Value, path: &str, what: &str, most_bytes: u64) -> Option<Vec<u8>> {
+        match self.files.read(path, most_bytes) {
+            Ok(bytes) => {
+                self.hash = hashed(hashed(self.hash, path.as_bytes()), &bytes);
+                Some(bytes)
+            }
+            Err(problem) => {
+                let neighbours = self.files.neighbours(path);
+                let file = path.rsplit('/').next().unwrap_or(path);
+                let (message, help) = match problem {
+                    FileProblem::Missing => {
+                        let help = match nearest(file, neighbours.iter().map(String::as_str)) {
+                            Some(name) => format!("did you mean `{name}` in the same folder?"),
+                            None => "names are relative to the file that mentions them".into(),
+                        };
+                        (format!("there is no {what} `{path}`"), help)
+                    }
+                    FileProblem::TooLong { bytes } => {
+                        (format!("the {what} `{path}` has {bytes} bytes"), format!("at most {most_bytes} bytes ({} MiB) are read", most_bytes >> 20))
+                    }
+                    FileProblem::Unreadable(why) => (format!("the {what} `{path}` cannot be read: {why}"), String::new()),
+                };
+                mention.problem(&mut self.problems, message, help);
+                None
+            }
+        }
+    }
+
+    /// A text that a value mentions.
+    pub(super) fn text(&mut self, mention: &Value, path: &str, what: &str, most_bytes: u64) -> Option<String> {
+        let bytes = self.bytes(mention, path, what, most_bytes)?;
+        self.utf8(path, bytes)
+    }
+
+    fn utf8(&mut self, path: &str, bytes: Vec<u8>) -> Option<String> {
+        match String::from_utf8(bytes) {
+            Ok(text) => Some(text),
+            Err(error) => {
+                let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+                let line = 1 + good.iter().filter(|&&b| b == b'\n').count();
+                let start = good.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
+                let column = 1 + String::from_utf8_lossy(&good[start..]).chars().count();
+                let text = String::from_utf8_lossy(&error.as_bytes()[start..]);
+                let text = text.lines().next().unwrap_or_default();
+                self.problems.add(Diagnostic::of_column(path, line, column, text, "the file holds bytes that are not UTF-8 text", "save the file as UTF-8 text"));
+                None
+            }
+        }
+    }
+
+    /// The document of a file that a value mentions.
+    pub(super) fn document(&mut self, mention: &Value, path: &str, what: &str) -> Option<Document> {
+        let text = self.text(mention, path, what, LONGEST_DOCUMENT_BYTES)?;
+        self.parsed(path, &text)
+    }
+
+    /// The document of the scene file itself.
+    pub(super) fn first_document(&mut self, path: &str) -> Option<Document> {
+        match self.files.read(path, LONGEST_DOCUMENT_BYTES) {
+            Ok(bytes) => {
+                self.hash = hashed(self.hash, &bytes);
+                let text = self.utf8(path, bytes)?;
+                self.parsed(path, &text)
+            }
+            Err(problem) => {
+                let help = match problem {
+                    FileProblem::TooLong { .. } => Some(format!("at most {LONGEST_DOCUMENT_BYTES} bytes ({} MiB) are read", LONGEST_DOCUMENT_BYTES >> 20)),
+                    FileProblem::Missing => {
+                        let neighbours = self.files.neighbours(path);
+                        let file = path.rsplit('/').next().unwrap_or(path);
+                        nearest(file, neighbours.iter().map(String::as_str)).map(|name| format!("did you mean `{name}` in the same folder?"))
+                    }
+                    FileProblem::Unreadable(_) => None,
+                };
+                self.problems.add(Diagnostic::of_file(path, format!("the scene cannot be read: {problem}"), help));
+                None
+            }
+        }
+    }
+
+    fn parsed(&mut self, path: &str, text: &str) -> Option<Document> {
+        match Document::parse(path, text) {
+            Ok(document) => Some(document),
+            Err(problem) => {
+                self.problems.add(*problem);
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Sensor files → sensors.
+//!
+//! ```ron
+//! Sensor(
+//!     title: "Class B illuminance meter",
+//!     aperture: Disc(radius_mm: 5),
+//!     acceptance: Directional("directional.csv"),
+//!     channels: [(name: "E_v", responsivity: "responsivity.csv", reads: Illuminance(adjusted_with: "A"))],
+//! )
+//! ```
+//!
+//! | part | how it is written |
+//! |---|---|
+//! | aperture | `Point`, `Disc(radius_mm: 5)`, `Rectangle(width_mm: 10, height_mm: 8)`; `_m` for metres |
+//! | acceptance | `Cosine`, `Cone(half_angle_deg: 0.5)`, `Directional("directional.csv")` |
+//! | channels | `(name: …, responsivity: …, reads: …)`; what it can read: `channel_reader.rs` |
+
+use std::sync::Arc;
+
+use super::channel_reader::read_channel;
+use super::decode::Value;
+use super::directional_table::read_directional;
+use super::document::Kind;
+use super::reading::Reading;
+use crate::sensor::{Acceptance, Aperture, Sensor};
+
+/// The sensor of an instrument: the name of a file, or the sensor itself.
+pub(super) fn read_sensor(value: &Value, reading: &mut Reading) -> Option<Arc<Sensor>> {
+    if let Kind::Text(name) = &value.node.kind {
+        let path = reading.path(value, name)?;
+        if let Some(known) = reading.sensors.get(&path) {
+            return known.clone();
+        }
+        let sensor = reading.document(value, &path, "sensor file").and_then(|document| read_sensor_body(&Value::root(&document), &path, reading)).map(Arc::new);
+        reading.sensors.insert(path, sensor.clone());
+        return sensor;
+    }
+    if value.name() == "Sensor" {
+        return read_sensor_body(value, "sensor", reading).map(Arc::new);
+    }
+    let found = value.described();
+    value.problem(&mut reading.problems, format!("a sensor is expected, not {found}"), "write the name of a sensor file in quotes, or `Sensor(aperture: …, acceptance: …, channels: […])`");
+    None
+}
+
+fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<Sensor> {
+    let problems = &mut reading.problems;
+    if value.name() != "Sensor" {
+        let found = value.described();
+        value.problem_at(&value.name_span(), problems, format!("a sensor file holds `Sensor(…)`, not {found}"), "write `Sensor(aperture: …, acceptance: …, channels: […])`");
+        return None;
+    }
+    let before = problems.count();
+    let fields = value.fields("`Sensor`", &["title", "aperture", "acceptance", "channels"], problems)?;
+    let title = fields.get("title").and_then(|title| title.text(problems)).unwrap_or(name).to_string();
+    let aperture = fields.require("aperture", "Point", problems).and_then(|v| read_aperture(&v, reading));
+    let acceptance = fields.require("acceptance", "Cosine", &mut reading.problems).and_then(|v| read_acceptance(&v, reading));
+    let channels = fields.require("channels", "[(name: \"E_v\", responsivity: \"V\", reads: Illuminance)]", &mut reading.problems);
+    let items = channels.as_ref().and_then(|v| v.list("channels", &mut reading.problems));
+    let mut list = Vec::new();
+    let mut names: Vec<String> = Vec::new();
+    for item in items.iter().flatten() {
+        let Some(channel) = read_channel(item, aperture, acceptance.as_ref(), reading) else { continue };
+        if names.contains(&channel.name) {
+            item.problem_at(&item.title_span(), &mut reading.problems, format!("two channels are called \"{}\"", channel.name), "give each its own name");
+        }
+        names.push(channel.name.clone());
+        list.push(channel);
+    }
+    if let (Some(channels), Some([])) = (&channels, items.as_deref()) {
+        channels.problem(&mut reading.problems, "the sensor has no channel, so there is nothing to read", "add `(name: \"E_v\", responsivity: \"V\", reads: Illuminance)`");
+    }
+    if reading.problems.count() > before {
+        return None;
+    }
+    Some(Sensor { title, aperture: aperture?, acceptance: acceptance?, channels: list })
+}
+
+/// A length given in one of two units.
+fn read_length(value: &Value, fields: &super::decode::Fields, stem: &str, reading: &mut Reading) -> Option<f64> {
+    let (mm, m) = (format!("{stem}_mm"), format!("{stem}_m"));
+    let problems = &mut reading.problems;
+    match (fields.get(&mm), fields.get(&m)) {
+        (Some(_), Some(_)) => {
+            value.problem_at(&fields.key_span(&m), problems, format!("both `{mm}` and `{m}` are given"), "keep one of them");
+            None
+        }
+        (Some(given), None) => given.length_m(&format!("`{mm}`"), 1e-3, problems),
+        (None, Some(given)) => given.length_m(&format!("`{m}`"), 1.0, problems),
+        (None, None) => {
+            fields.require(&mm, "5", problems);
+            None
+        }
+    }
+}
+
+fn read_aperture(value: &Value, reading: &mut Reading) -> Option<Aperture> {
+    match value.variant("an aperture", &["Point", "Disc", "Rectangle"], &mut reading.problems)? {
+        "Point" => value.without_brackets(&mut reading.problems).map(|()| Aperture::Point),
+        "Disc" => {
+            let fields = value.fields("`Disc`", &["radius_mm", "radius_m"], &mut reading.problems)?;
+            Some(Aperture::Disc { radius_m: read_length(value, &fields, "radius", reading)? })
+        }
+        _ => {
+            let fields = value.fields("`Rectangle`", &["width_mm", "height_mm", "width_m", "height_m"], &mut reading.problems)?;
+            let (width, height) = (read_length(value, &fields, "width", reading), read_length(value, &fields, "height", reading));
+            Some(Aperture::Rectangle { half_width_m: 0.5 * width?, half_height_m: 0.5 * height? })
+        }
+    }
+}
+
+fn read_acceptance(value: &Value, reading: &mut Reading) -> Option<Acceptance> {
+    match value.variant("an acceptance", &["Cosine", "Cone", "Directional"], &mut reading.problems)? {
+        "Cosine" => value.without_brackets(&mut reading.problems).map(|()| Acceptance::Cosine),
+        "Cone" => {
+            let problems = &mut reading.problems;
+            let angle = value.fields("`Cone`", &["half_angle_deg"], problems)?.require("half_angle_deg", "0.5", problems)?;
+            let half_angle_deg = angle.number(problems)?;
+            if half_angle_deg == 0.0 {
+                angle.problem(problems, "an acceptance of zero collects nothing", "give a half-angle above 0°, such as `half_angle_deg: 0.5`");
+                return None;
+            }
+            if !(half_angle_deg > 0.0 && half_angle_deg <= 90.0) {
+                angle.problem(problems, format!("the half-angle is {half_angle_deg}°"), "allowed: above 0° to 90°");
+                return None;
+            }
+            Some(Acceptance::Cone { half_angle_rad: half_angle_deg.to_radians() })
+        }
+        _ => {
+            let name = value.positional(1, "Directional(\"directional.csv\")", &mut reading.problems)?.into_iter().next()?;
+            read_directional(&name, reading).map(Acceptance::Directional)
+        }
+    }
+}

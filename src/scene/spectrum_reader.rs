@@ -1,0 +1,301 @@
+//! Spectra and factors of scene and sensor files.
+//!
+//! | spectrum | what it is |
+//! |---|---|
+//! | `"D65"`, `"lamp.csv"` | from the library, or a file that ends in `.csv` or `.txt` |
+//! | `BlackBody(2856)` | by Planck, K |
+//! | `Line(633)`, `Lines([(435.8, 1.0), (546.1, 0.8)])` | nm; nm and relative power |
+//! | `Gaussian(centre_nm: 530, fwhm_nm: 30)` | FWHM = 2 √(2 ln 2) σ |
+//! | `Flat(from_nm: 380, to_nm: 780)` | the same per nm |
+//! | `Sum([(0.7, "A"), (0.3, Line(546))])` | weights of parts that are first scaled to an integral of one |
+//! | `Filtered(spectrum, factor)` | a spectrum times a factor |
+//!
+//! | factor | what it is |
+//! |---|---|
+//! | `0.85`, `Constant(0.85)` | the same at every wavelength |
+//! | `"V"`, `"oak.csv"` | from the library, or a file |
+//! | `Band(from_nm: 400, to_nm: 700, value: 0.9)` | zero outside; value 1 if it is not given |
+//! | `Gaussian(peak: 1, centre_nm: 530, fwhm_nm: 30)` | a bell curve |
+//! | `Product([f, g])`, `Sum([f, g])`, `Scaled(0.5, f)` | of other factors |
+
+use super::decode::Value;
+use super::diagnostic::Diagnostic;
+use super::document::Kind;
+use super::files::LONGEST_CURVE_BYTES;
+use super::nearest::nearest;
+use super::reading::Reading;
+use crate::spectrum::table_text::{TextRules, parse_bytes};
+use crate::spectrum::{Density, Factor, Line, Outside, SpectrumError, Table, library};
+
+const SPECTRA: [&str; 7] = ["BlackBody", "Line", "Lines", "Gaussian", "Flat", "Sum", "Filtered"];
+const FACTORS: [&str; 6] = ["Constant", "Band", "Gaussian", "Product", "Sum", "Scaled"];
+
+/// Longest wavelength that is taken for one, nm.
+const LONGEST_NM: f64 = 1e9;
+
+/// V(λ), CIE 1924.
+pub(super) fn v_lambda() -> Factor {
+    library::v_lambda()
+}
+
+/// Full width at half maximum → standard deviation: 1 / (2 √(2 ln 2)).
+fn sigma_nm(fwhm_nm: f64) -> f64 {
+    fwhm_nm / (2.0 * (2.0 * std::f64::consts::LN_2).sqrt())
+}
+
+/// Whether a text names a file rather than an entry of the library.
+fn is_file(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    lower.ends_with(".csv") || lower.ends_with(".txt")
+}
+
+/// Reads a spectrum; its absolute scale is what the file or the law says.
+pub(super) fn read_spectrum(value: &Value, reading: &mut Reading) -> Option<Density> {
+    if let Kind::Text(name) = &value.node.kind {
+        if is_file(name) {
+            let table = read_curve(value, name, reading)?;
+            let density = Density::table(table);
+            return checked(value, density, reading);
+        }
+        return library::density(name).map_err(|error| unknown(value, &error, "spectrum", reading)).ok();
+    }
+    if !SPECTRA.contains(&value.name()) {
+        refuse(value, "a spectrum", "\"D65\" (library), \"lamp.csv\" (file)", &SPECTRA, library::density(value.name()).is_ok(), reading);
+        return None;
+    }
+    match value.name() {
+        "BlackBody" => {
+            let item = value.positional(1, "BlackBody(2856)", &mut reading.problems)?.into_iter().next()?;
+            let temperature_k = item.number_in("the temperature", "above 0 K, up to 1e9 K", |t| t > 0.0 && t <= 1e9, &mut reading.problems)?;
+            checked(value, Density::black_body(temperature_k), reading)
+        }
+        "Line" => {
+            let item = value.positional(1, "Line(633)", &mut reading.problems)?.into_iter().next()?;
+            let nm = read_wavelength(&item, reading)?;
+            checked(value, Density::line(nm, 1.0), reading)
+        }
+        "Lines" => {
+            let item = value.positional(1, "Lines([(435.8, 1.0), (546.1, 0.8)])", &mut reading.problems)?.into_iter().next()?;
+            let rows = item.list("lines", &mut reading.problems)?;
+            let lines: Vec<Option<Line>> = rows
+                .iter()
+                .map(|row| {
+                    let pair = row.positional(2, "(435.8, 1.0)", &mut reading.problems)?;
+                    let wavelength_nm = read_wavelength(&pair[0], reading);
+                    let power = pair[1].number_in("the relative power", "0 and above", |x| x >= 0.0, &mut reading.problems);
+                    Some(Line { wavelength_nm: wavelength_nm?, power: power? })
+                })
+                .collect();
+            let lines = lines.into_iter().collect::<Option<Vec<Line>>>()?;
+            if lines.iter().all(|line| line.power == 0.0) {
+                value.problem(&mut reading.problems, "the spectrum has no line with a power above 0", "write `Lines([(435.8, 1.0)])`: nm and relative power");
+                return None;
+            }
+            checked(value, Density::lines_only(&lines), reading)
+        }
+        "Gaussian" => {
+            let numbers = read_keyed(value, &["centre_nm", "fwhm_nm"], reading)?;
+            checked(value, Density::gaussian(1.0, numbers[0], sigma_nm(numbers[1])), reading)
+        }
+        "Flat" => {
+            let numbers = read_keyed(value, &["from_nm", "to_nm"], reading)?;
+            checked(value, Density::flat(numbers[0], numbers[1], 1.0), reading)
+        }
+        "Sum" => read_sum(value, reading),
+        _ => {
+            let parts = value.positional(2, "Filtered(\"A\", \"filter.csv\")", &mut reading.problems)?;
+            let spectrum = read_spectrum(&parts[0], reading);
+            let factor = read_factor(&parts[1], Outside::Zero, reading).and_then(|factor| not_negative(&parts[1], factor, reading));
+            Some(spectrum?.filtered(&factor?))
+        }
+    }
+}
+
+fn read_sum(value: &Value, reading: &mut Reading) -> Option<Density> {
+    let form = "Sum([(0.7, \"A\"), (0.3, Line(546))])";
+    let list = value.positional(1, form, &mut reading.problems)?.into_iter().next()?.list("parts of a sum", &mut reading.problems)?;
+    let parts: Vec<Option<Density>> = list
+        .iter()
+        .map(|part| {
+            let pair = part.positional(2, "(0.7, \"A\")", &mut reading.problems)?;
+            let weight = pair[0].number_in("the weight", "0 and above", |x| x >= 0.0, &mut reading.problems);
+            let density = read_spectrum(&pair[1], reading);
+            let (weight, density) = (weight?, density?);
+            let total = density.total();
+            if !(total > 0.0 && total.is_finite()) {
+                pair[1].problem(&mut reading.problems, "this part is zero at every wavelength, so it cannot be weighted", "leave it out, or give another spectrum");
+                return None;
+            }
+            checked(part, density.scaled(weight / total), reading)
+        })
+        .collect();
+    let parts = parts.into_iter().collect::<Option<Vec<Density>>>()?;
+    let sum = parts.iter().fold(Density::zero(), |sum, part| sum.plus(part));
+    if sum.support().is_empty() {
+        value.problem(&mut reading.problems, "the sum is zero at every wavelength", "give at least one part a weight above 0");
+        return None;
+    }
+    Some(sum)
+}
+
+/// Reads a factor. `outside` is what a file's curve is worth beyond its ends.
+pub(super) fn read_factor(value: &Value, outside: Outside, reading: &mut Reading) -> Option<Factor> {
+    match &value.node.kind {
+        Kind::Number(_) => return value.number(&mut reading.problems).map(Factor::Constant),
+        Kind::Text(name) if is_file(name) => return read_curve(value, name, reading).map(|table| Factor::Table(table.with_outside(outside))),
+        Kind::Text(name) => {
+            let found = library::factor(name).map_err(|error| unknown(value, &error, "factor", reading)).ok()?;
+            return Some(match found {
+                Factor::Table(table) => Factor::Table(table.with_outside(outside)),
+                other => other,
+            });
+        }
+        _ => {}
+    }
+    if !FACTORS.contains(&value.name()) {
+        refuse(value, "a factor", "0.85 (constant), \"V\" (library), \"oak.csv\" (file)", &FACTORS, library::factor(value.name()).is_ok(), reading);
+        return None;
+    }
+    match value.name() {
+        "Constant" => {
+            let item = value.positional(1, "Constant(0.85)", &mut reading.problems)?.into_iter().next()?;
+            item.number(&mut reading.problems).map(Factor::Constant)
+        }
+        "Band" => {
+            let fields = value.fields("`Band`", &["from_nm", "to_nm", "value"], &mut reading.problems)?;
+            let mut edge = |key: &str, example: &str| fields.require(key, example, &mut reading.problems).and_then(|v| read_wavelength(&v, reading));
+            let (from_nm, to_nm) = (edge("from_nm", "400"), edge("to_nm", "700"));
+            let height = fields.get("value").map_or(Some(1.0), |v| v.number(&mut reading.problems));
+            checked(value, Factor::band(from_nm?, to_nm?, height?), reading)
+        }
+        "Gaussian" => {
+            let fields = value.fields("`Gaussian`", &["peak", "centre_nm", "fwhm_nm"], &mut reading.problems)?;
+            let peak = fields.get("peak").map_or(Some(1.0), |v| v.number(&mut reading.problems));
+            let mut width = |key: &str, example: &str| fields.require(key, example, &mut reading.problems).and_then(|v| read_wavelength(&v, reading));
+            let (centre_nm, fwhm_nm) = (width("centre_nm", "530"), width("fwhm_nm", "30"));
+            checked(value, Factor::gaussian(peak?, centre_nm?, sigma_nm(fwhm_nm?)), reading)
+        }
+        "Scaled" => {
+            let parts = value.positional(2, "Scaled(0.5, \"V\")", &mut reading.problems)?;
+            let scale = parts[0].number(&mut reading.problems);
+            Some(read_factor(&parts[1], outside, reading)?.scaled(scale?))
+        }
+        name => {
+            let form = format!("{name}([f, g])");
+            let list = value.positional(1, &form, &mut reading.problems)?.into_iter().next()?.list("the parts", &mut reading.problems)?;
+            if list.is_empty() {
+                value.problem(&mut reading.problems, format!("`{name}` has no parts"), format!("write `{form}`"));
+                return None;
+            }
+            let parts: Vec<Option<Factor>> = list.iter().map(|part| read_factor(part, outside, reading)).collect();
+            let parts = parts.into_iter().collect::<Option<Vec<Factor>>>()?;
+            Some(if name == "Product" { Factor::Product(parts) } else { Factor::Sum(parts) })
+        }
+    }
+}
+
+/// Notes that a value is neither a name nor one of the forms; `in_library` if it would be with quotes.
+fn refuse(value: &Value, what: &str, names: &str, forms: &[&str], in_library: bool, reading: &mut Reading) {
+    let found = value.described();
+    let help = match nearest(value.name(), forms.iter().copied()) {
+        _ if in_library => format!("names are written in quotes: \"{}\"", value.name()),
+        Some(name) => format!("did you mean `{name}`? allowed: {names}, {}", forms.join(", ")),
+        None => format!("allowed: {names}, {}", forms.join(", ")),
+    };
+    value.problem_at(&value.name_span(), &mut reading.problems, format!("{what} is expected, not {found}"), help);
+}
+
+/// A factor that is nowhere negative.
+pub(super) fn not_negative(value: &Value, factor: Factor, reading: &mut Reading) -> Option<Factor> {
+    let least = factor.range_over(0.0, f64::INFINITY).0;
+    if least >= 0.0 {
+        return Some(factor);
+    }
+    value.problem(&mut reading.problems, format!("the factor falls to {least}"), "a filter lets 0 or more of the light through");
+    None
+}
+
+fn read_wavelength(value: &Value, reading: &mut Reading) -> Option<f64> {
+    let nm = value.number(&mut reading.problems)?;
+    if nm > 0.0 && nm <= LONGEST_NM {
+        if nm < 10.0 {
+            value.problem(&mut reading.problems, format!("a wavelength of {nm} nm is an X-ray"), format!("wavelengths are in nm; {nm} µm is written {}", nm * 1000.0));
+            return None;
+        }
+        return Some(nm);
+    }
+    value.problem(&mut reading.problems, format!("the wavelength is {nm} nm"), "allowed: 10 nm to 1e9 nm");
+    None
+}
+
+fn read_keyed(value: &Value, keys: &[&str], reading: &mut Reading) -> Option<Vec<f64>> {
+    let fields = value.fields(&format!("`{}`", value.name()), keys, &mut reading.problems)?;
+    let numbers: Vec<Option<f64>> = keys
+        .iter()
+        .map(|&key| {
+            let found = fields.require(key, "500", &mut reading.problems)?;
+            if key == "fwhm_nm" {
+                return found.number_in("the full width at half maximum", "above 0 nm", |x| x > 0.0 && x <= LONGEST_NM, &mut reading.problems);
+            }
+            read_wavelength(&found, reading)
+        })
+        .collect();
+    numbers.into_iter().collect()
+}
+
+fn checked<T>(value: &Value, made: Result<T, SpectrumError>, reading: &mut Reading) -> Option<T> {
+    made.map_err(|error| value.problem(&mut reading.problems, error.to_string(), "")).ok()
+}
+
+fn unknown(value: &Value, error: &library::LookupError, what: &str, reading: &mut Reading) {
+    let (message, help) = match error {
+        library::LookupError::Unknown { name, nearest } => {
+            let near: Vec<String> = nearest.iter().map(|n| format!("\"{n}\"")).collect();
+            let files = "a file name ends in .csv or .txt";
+            (format!("the library has no {what} called \"{name}\""), format!("nearest: {}; {files}", near.join(", ")))
+        }
+        other @ library::LookupError::OtherKind { .. } => {
+            let example = if what == "spectrum" { "write a spectrum such as \"A\", \"D65\", \"LED-B3\"" } else { "write a factor such as \"V\", a number, or the name of a curve file" };
+            (other.to_string(), example.into())
+        }
+    };
+    value.problem(&mut reading.problems, message, help);
+}
+
+/// Reads a curve file: wavelength in nm and one value.
+fn read_curve(value: &Value, name: &str, reading: &mut Reading) -> Option<Table> {
+    let path = reading.path(value, name)?;
+    if let Some(known) = reading.curves.get(&path) {
+        return known.clone();
+    }
+    let table = reading.bytes(value, &path, "curve file", LONGEST_CURVE_BYTES).and_then(|bytes| parse_curve(&path, &bytes, reading));
+    reading.curves.insert(path, table.clone());
+    table
+}
+
+fn parse_curve(path: &str, bytes: &[u8], reading: &mut Reading) -> Option<Table> {
+    let mut text = match parse_bytes(bytes, &TextRules::default()) {
+        Ok(text) => text,
+        Err(problems) => {
+            for problem in problems {
+                let line = bytes.split(|&b| b == b'\n').nth(problem.line.saturating_sub(1)).unwrap_or_default();
+                let line = String::from_utf8_lossy(line).trim_end_matches('\r').to_string();
+                reading.problems.add(Diagnostic::of_column(path, problem.line, problem.column, &line, problem.message, problem.help));
+            }
+            return None;
+        }
+    };
+    if text.columns.len() != 1 {
+        let help = "a curve has two columns: wavelength in nm, value".to_string();
+        reading.problems.add(Diagnostic::of_file(path, format!("the file has {} columns of values", text.columns.len()), Some(help)));
+        return None;
+    }
+    let values = text.columns.pop()?;
+    match Table::new(text.wavelengths_nm, values, Outside::Zero) {
+        Ok(table) => Some(table),
+        Err(error) => {
+            reading.problems.add(Diagnostic::of_file(path, error.to_string(), None));
+            None
+        }
+    }
+}
