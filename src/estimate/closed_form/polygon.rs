@@ -149,12 +149,7 @@ impl LocalPolygon {
                 clipped.push(a);
             }
             if (a.z > 0.0 && b.z < 0.0) || (a.z < 0.0 && b.z > 0.0) {
-                let t = a.z / (a.z - b.z);
-                clipped.push(DVec3::new(
-                    a.x + (b.x - a.x) * t,
-                    a.y + (b.y - a.y) * t,
-                    0.0,
-                ));
+                clipped.push(between(a, b, a.z, b.z).with_z(0.0));
             }
         }
         clipped
@@ -213,7 +208,7 @@ impl LocalPolygon {
                 a.y.atan2(a.x)
             });
             if (a.z > 0.0) != (b.z > 0.0) {
-                let p = da + (db - da) * (a.z / (a.z - b.z));
+                let p = between(da, db, a.z, b.z);
                 breaks.push(if first.x > 0.0 { at(p) } else { p.y.atan2(p.x) });
             }
         }
@@ -244,7 +239,7 @@ impl LocalPolygon {
                 if (ya > 0.0) == (yb > 0.0) {
                     continue;
                 }
-                let p = a + (b - a) * (ya / (ya - yb));
+                let p = between(a, b, ya, yb);
                 ends.push((p.x * cos + p.y * sin) * across.z - p.z * across.rho);
             }
             ends.sort_by(f64::total_cmp);
@@ -255,6 +250,16 @@ impl LocalPolygon {
             if sum.is_finite() { sum } else { 0.0 }
         };
         integrate_azimuth(breaks, &strip).value
+    }
+}
+
+/// The point between `a` and `b` where a linear function with the values `at_a` and `at_b` vanishes; from the nearer end, so that
+/// a long edge does not spoil the precision of its other end.
+fn between(a: DVec3, b: DVec3, at_a: f64, at_b: f64) -> DVec3 {
+    if at_a.abs() <= at_b.abs() {
+        a + (b - a) * (at_a / (at_a - at_b))
+    } else {
+        b + (a - b) * (at_b / (at_b - at_a))
     }
 }
 
