@@ -6,7 +6,7 @@
 //!
 //! | parameter | meaning | unit |
 //! |---|---|---|
-//! | `vertices` | corners relative to the receiver, in order; planar, simple, convex or not | m |
+//! | `vertices` | corners relative to the receiver, in order; planar, simple, convex or not (to be checked by the caller) | m |
 //! | `normal` | receiver's normal, any length | 1 |
 //!
 //! Lambert, Photometria (1760), theorem 16; in this form Arvo, Analytic Methods for Simulated Light Transport (1995). The front of a polygon is
@@ -19,7 +19,7 @@
 use super::fan::{Acceptance, StripLine, StripPoint, integrate_azimuth};
 use super::frame::{Frame, power_of_two_scale, triple};
 use crate::math::DVec3;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Largest estimated relative rounding error with which the sum over edges is accepted.
 pub(super) const MAX_ROUNDING: f64 = 1e-11;
@@ -35,7 +35,8 @@ pub fn polygon(vertices: &[DVec3], normal: DVec3) -> f64 {
 
 /// Projected solid angle, sr, of a polygon that emits to both sides.
 pub fn polygon_two_sided(vertices: &[DVec3], normal: DVec3) -> f64 {
-    LocalPolygon::new(vertices, normal).map_or(0.0, |polygon| polygon.above_horizon().max(0.0))
+    LocalPolygon::new(vertices, normal)
+        .map_or(0.0, |polygon| polygon.above_horizon().clamp(0.0, PI))
 }
 
 /// Whether the receiver is in front of a polygon, or in its plane.
@@ -247,7 +248,7 @@ impl LocalPolygon {
                 .chunks_exact(2)
                 .map(|pair| line.chord(pair[0], pair[1], acceptance))
                 .sum();
-            if sum.is_finite() { sum } else { 0.0 }
+            if sum.is_finite() { sum.min(1.0) } else { 0.0 }
         };
         integrate_azimuth(breaks, &strip).value
     }
