@@ -4,4 +4,5 @@ pub mod geometry;
 pub mod math;
 pub mod metrology;
 pub mod quantity;
+pub mod scene;
 pub mod spectrum;

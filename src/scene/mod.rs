@@ -1,0 +1,3 @@
+//! From files to a validated scene.
+
+pub mod mesh_file;
