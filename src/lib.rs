@@ -2,8 +2,11 @@
 pub mod estimate;
 pub mod geometry;
 pub mod math;
+pub mod measurement;
 pub mod metrology;
+pub mod plan;
 pub mod quantity;
+pub mod report;
 pub mod scene;
 pub mod sensor;
 pub mod source;

@@ -193,8 +193,7 @@ fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
             }
         }
         Piece::Mesh { element, mesh, side } => {
-            // The first number chooses the triangle as well; a mesh has more triangles than a number has strata to lose.
-            let (triangle, point, normal) = mesh.sample_by_area(u[0], u[1]);
+            let (triangle, point, normal) = mesh.sample_by_area_with_two(u);
             from_area(point - x, side.sign() * normal, mesh.area_m2(), *element, triangle)
         }
     }

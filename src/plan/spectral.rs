@@ -9,7 +9,8 @@
 
 use super::{Plan, Transport};
 use crate::scene::Scene;
-use crate::spectrum::{Density, Factor, SpectralNodes};
+use crate::spectrum::quadrature::SpectralNodes;
+use crate::spectrum::{Density, Factor};
 
 /// Most nodes that paths carry.
 const MAX_NODES: usize = 64;

@@ -347,7 +347,7 @@ impl Density {
         self.integral(&[])
     }
 
-    /// `∫ φ(λ) Π fᵢ(λ) dλ`, lines included: exact between breakpoints, see [`product_integral`](self).
+    /// `∫ φ(λ) Π fᵢ(λ) dλ`, exact between breakpoints; lines count with their power.
     ///
     /// Piecewise-linear products are exact to rounding; black bodies and Gaussians converge to about 1e-13 relative. Inserting
     /// nodes into a table does not change the result. The result is infinite only if it cannot be held in an `f64`.

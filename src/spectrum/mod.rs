@@ -20,6 +20,8 @@
 //! | `product_integral` | exact integrals of products |
 //! | `term` | a density times factors, cut into smooth pieces |
 //! | `quadrature` | few wavelengths and positive weights for path products |
+//! | `placement` | greedy choice of those wavelengths |
+//! | `test_products` | products of reflectances on which a quadrature is tried |
 //! | `photometry` | radiant, luminous and photon totals |
 //! | `table_text` | text of a curve file to columns, or all its problems |
 //! | `library` | embedded tables by name |
@@ -31,13 +33,16 @@ mod factor;
 mod gauss_legendre;
 pub mod library;
 pub mod photometry;
+mod placement;
 mod product_integral;
+pub mod quadrature;
 mod scaled_number;
 mod support;
 mod table;
 mod table_row;
 pub mod table_text;
 mod term;
+mod test_products;
 
 pub use density::{Continuum, Density, Line};
 pub use error::SpectrumError;

@@ -10,14 +10,8 @@
 //! The SI fixes 683 lm W⁻¹ at 540 THz, which is 555.016 nm in standard air; V(λ) is tabulated in air with its peak at 555 nm,
 //! so `K_m = 683/V(555.016 nm) = 683.002` (ISO 23539).
 
-use super::black_body::{PLANCK_J_S, SPEED_OF_LIGHT_M_S};
 use super::{Density, Factor};
-
-/// Largest luminous efficacy of radiation for photopic vision, wavelengths in air, lm W⁻¹.
-pub const MAXIMUM_LUMINOUS_EFFICACY_LM_W: f64 = 683.002;
-
-/// Avogadro constant, mol⁻¹ (SI, exact).
-const AVOGADRO_MOL: f64 = 6.022_140_76e23;
+use crate::quantity::constants::{AVOGADRO_PER_MOL, K_M_LM_W, PLANCK_J_S, SPEED_OF_LIGHT_M_S};
 
 /// Photons per energy, `λ/(hc)`, J⁻¹: what turns a spectral flux in W into photons per second.
 pub fn photons_per_joule() -> Factor {
@@ -31,7 +25,7 @@ pub fn radiant(density: &Density) -> f64 {
 
 /// Luminous total through the luminous efficiency `v` (`library::v_lambda()`): lm for W nm⁻¹, lx for W m⁻² nm⁻¹.
 pub fn luminous(density: &Density, v: &Factor) -> f64 {
-    density.integral(&[v, &Factor::Constant(MAXIMUM_LUMINOUS_EFFICACY_LM_W)])
+    density.integral(&[v, &Factor::Constant(K_M_LM_W)])
 }
 
 /// Photons per second for W nm⁻¹, photons s⁻¹ m⁻² for W m⁻² nm⁻¹.
@@ -41,12 +35,15 @@ pub fn photons(density: &Density) -> f64 {
 
 /// Photons in mol s⁻¹ for W nm⁻¹, mol s⁻¹ m⁻² for W m⁻² nm⁻¹.
 pub fn photons_mol(density: &Density) -> f64 {
-    density.integral(&[&photons_per_joule(), &Factor::Constant(1.0 / AVOGADRO_MOL)])
+    density.integral(&[
+        &photons_per_joule(),
+        &Factor::Constant(1.0 / AVOGADRO_PER_MOL),
+    ])
 }
 
 /// Luminous efficacy of radiation, lm W⁻¹; `None` for a density that is zero.
 pub fn luminous_efficacy_lm_w(density: &Density, v: &Factor) -> Option<f64> {
-    Some(MAXIMUM_LUMINOUS_EFFICACY_LM_W * density.mean_of(v)?)
+    Some(K_M_LM_W * density.mean_of(v)?)
 }
 
 #[cfg(test)]

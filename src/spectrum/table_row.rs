@@ -49,14 +49,35 @@ impl Field<'_> {
         self.text.parse::<f64>().is_err() && !starts_as_number && !self.text.is_empty()
     }
 
+    /// The finite number that the field holds, or a message and what to do about it.
+    pub(super) fn number(&self) -> Result<f64, (String, String)> {
+        match self.text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            Ok(_) => {
+                let help = "leave the row out, or give a finite value".to_owned();
+                Err((format!("`{}` is not a finite number", self.shown()), help))
+            }
+            Err(_) => {
+                let help = match self.with_decimal_point() {
+                    Some(corrected) => {
+                        format!("this looks like a decimal comma; write `{corrected}`")
+                    }
+                    None if self.text.is_empty() => "give a value, or leave the row out".to_owned(),
+                    None => "give a number such as `0.42` or `4.2e-1`".to_owned(),
+                };
+                Err((format!("`{}` is not a number", self.shown()), help))
+            }
+        }
+    }
+
     /// The text with a decimal point, if that makes it a number.
-    pub(super) fn with_decimal_point(&self) -> Option<String> {
+    fn with_decimal_point(&self) -> Option<String> {
         let corrected = self.text.replacen(',', ".", 1);
         (corrected != self.text && corrected.parse::<f64>().is_ok()).then_some(corrected)
     }
 
     /// The text for a message, cut after 40 characters.
-    pub(super) fn shown(&self) -> String {
+    fn shown(&self) -> String {
         let mut shown: String = self.text.chars().take(40).collect();
         if shown.len() < self.text.len() {
             shown.push('…');

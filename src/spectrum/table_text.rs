@@ -307,34 +307,10 @@ impl Reader {
     }
 
     fn number(&mut self, field: &Field<'_>) -> Option<f64> {
-        match field.text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Some(value),
-            Ok(_) => {
-                self.problem(
-                    field.column,
-                    format!("`{}` is not a finite number", field.shown()),
-                    "leave the row out, or give a finite value",
-                );
-                None
-            }
-            Err(_) => {
-                let help = match field.with_decimal_point() {
-                    Some(corrected) => {
-                        format!("this looks like a decimal comma; write `{corrected}`")
-                    }
-                    None if field.text.is_empty() => {
-                        "give a value, or leave the row out".to_owned()
-                    }
-                    None => "give a number such as `0.42` or `4.2e-1`".to_owned(),
-                };
-                self.problem(
-                    field.column,
-                    format!("`{}` is not a number", field.shown()),
-                    help,
-                );
-                None
-            }
-        }
+        field
+            .number()
+            .map_err(|(message, help)| self.problem(field.column, message, help))
+            .ok()
     }
 
     fn check_wavelength(&mut self, wavelength_nm: f64, field: &Field<'_>) {

@@ -1,1 +1,74 @@
-fn main() {}
+//! The command line: arguments, files and screens around the library.
+//!
+//! | file | what |
+//! |---|---|
+//! | `main.rs` | arguments, exit codes |
+//! | `disk.rs` | files on disk for the library, which opens none itself |
+//! | `check.rs`, `explain.rs`, `measure.rs` | one file a subcommand |
+//!
+//! Exit codes: 0 done, 1 failed, 2 bad input.
+
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+mod check;
+mod disk;
+mod explain;
+mod measure;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// A virtual photometer: put a modelled instrument into a modelled scene and read it, with a stated uncertainty.
+#[derive(Parser)]
+#[command(name = "etendue", version, about, long_about = None, arg_required_else_help = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Every problem of a scene file, or "ok".
+    Check(check::Arguments),
+    /// What will be computed, what is left out, and why.
+    Explain(explain::Arguments),
+    /// Read every instrument of a scene.
+    Measure(measure::Arguments),
+}
+
+/// Why a command ended early; what it has to say is on stderr already or is said here.
+enum Failure {
+    /// The input is bad: exit code 2.
+    Input(String),
+    /// Something failed that the input is not to blame for: exit code 1.
+    Run(String),
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+        Command::Measure(arguments) => measure::run(&arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Input(message)) => {
+            eprintln!("{}", message.trim_end());
+            ExitCode::from(2)
+        }
+        Err(Failure::Run(message)) => {
+            eprintln!("{}", message.trim_end());
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints to stdout; a reader that has gone away (`| head`) is no failure.
+fn print(text: &str) -> Result<(), Failure> {
+    use std::io::Write;
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::Run(format!("error: cannot write to stdout: {e}"))),
+        _ => Ok(()),
+    }
+}

@@ -18,9 +18,10 @@
 //! differences `1 − (…)/√(…)`; m is the unit normal of the disc away from the receiver. In the plane of the disc the result is the limit
 //! from its emitting side: π(1 + n·m)/2 inside, 0 on the rim and outside.
 
+use super::cone;
 use super::fan::{Acceptance, StripLine, StripPoint, integrate_azimuth};
 use super::frame::{Frame, dot, power_of_two_scale, unit};
-use super::{cone, sphere};
+use super::sign_change::sign_changes_in_unit_interval;
 use crate::math::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -151,7 +152,12 @@ impl Disc {
             // The rim is wholly inside or wholly outside; any point of it tells.
             let rim = c + radius * self.steepest();
             if rim.z > 0.0 && acceptance.depth(rim.x.hypot(rim.y), rim.z) >= 0.0 {
-                return self.flux_vector_component();
+                // A rim that is cut by the horizon leaves the cone just above it, if closer than the roots can tell.
+                return if c.z - rise >= 0.0 {
+                    self.flux_vector_component()
+                } else {
+                    self.strips(&self.horizon_breaks(), acceptance)
+                };
             }
             return if self.axis_pierces() {
                 PI * acceptance.sin * acceptance.sin
@@ -308,96 +314,15 @@ impl Disc {
                     rho: c.x * cos + c.y * sin + offset * across * along / k,
                     z: c.z + offset * across * m.z / k,
                 },
+                across: StripPoint {
+                    rho: along / k,
+                    z: m.z / k,
+                },
                 distance: height / k,
             };
-            let half = margin.sqrt() / k;
-            let end = StripPoint {
-                rho: half * m.z,
-                z: -half * along,
-            };
-            line.chord(
-                StripPoint {
-                    rho: -end.rho,
-                    z: -end.z,
-                },
-                end,
-                acceptance,
-            )
+            let half = margin.sqrt();
+            line.chord(-half, half, acceptance)
         };
         integrate_azimuth(breaks.to_vec(), &strip).value
-    }
-}
-
-/// Values of t in [−1, 1] at which a polynomial (ascending coefficients) changes its sign: between the extrema, by bisection.
-fn sign_changes_in_unit_interval(polynomial: &[f64]) -> Vec<f64> {
-    let value = |t: f64| {
-        polynomial
-            .iter()
-            .rev()
-            .fold(0.0, |sum, &coefficient| sum * t + coefficient)
-    };
-    if polynomial.len() < 2 {
-        return Vec::new();
-    }
-    let derivative: Vec<f64> = polynomial
-        .iter()
-        .enumerate()
-        .skip(1)
-        .map(|(k, &c)| k as f64 * c)
-        .collect();
-    let mut nodes = vec![-1.0];
-    nodes.extend(sign_changes_in_unit_interval(&derivative));
-    nodes.push(1.0);
-    let mut roots = Vec::new();
-    for pair in nodes.windows(2) {
-        let (mut low, mut high) = (pair[0], pair[1]);
-        let low_positive = value(low) > 0.0;
-        if low_positive == (value(high) > 0.0) {
-            continue;
-        }
-        loop {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if (value(middle) > 0.0) == low_positive {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        roots.push(0.5 * (low + high));
-    }
-    roots
-}
-
-/// Projected solid angle, sr, of a cap of the sphere of directions within a cone; the same outline as a disc.
-pub fn cap_in_cone(cap_half_angle_rad: f64, tilt_rad: f64, half_angle_rad: f64) -> f64 {
-    let Some(acceptance) = Acceptance::new(half_angle_rad) else {
-        return 0.0;
-    };
-    if acceptance.cos == 0.0 {
-        return sphere::cap(cap_half_angle_rad, tilt_rad);
-    }
-    if cap_half_angle_rad.is_nan() || cap_half_angle_rad <= 0.0 || !tilt_rad.is_finite() {
-        return 0.0;
-    }
-    let (sin, cos) = tilt_rad.sin_cos();
-    let axis = DVec3::new(sin, 0.0, cos);
-    let whole = PI * acceptance.sin * acceptance.sin;
-    if cap_half_angle_rad >= PI {
-        whole
-    } else if cap_half_angle_rad > FRAC_PI_2 {
-        (whole - cap_in_cone(PI - cap_half_angle_rad, PI - tilt_rad.abs(), half_angle_rad)).max(0.0)
-    } else if cap_half_angle_rad == FRAC_PI_2 {
-        cone::half_space_about_axis(axis, acceptance)
-    } else {
-        disc_in_acceptance(
-            axis * cap_half_angle_rad.cos(),
-            axis,
-            cap_half_angle_rad.sin(),
-            DVec3::Z,
-            acceptance,
-        )
     }
 }

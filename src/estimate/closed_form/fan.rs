@@ -51,47 +51,89 @@ impl Acceptance {
     }
 }
 
-/// A point of the half plane: distance from the axis and height, relative to the base of its line.
+/// A point of the half plane: distance from the axis and height above the receiver.
 #[derive(Clone, Copy)]
 pub(super) struct StripPoint {
     pub(super) rho: f64,
     pub(super) z: f64,
 }
 
-/// The line in which a half plane cuts the plane of the source: a base point, and the distance from the receiver.
+/// The line in which a half plane cuts the plane of the source, through a base point close to the source.
 #[derive(Clone, Copy)]
 pub(super) struct StripLine {
     pub(super) base: StripPoint,
+    /// Unit normal of the line, away from the receiver.
+    pub(super) across: StripPoint,
+    /// Distance of the line from the receiver.
     pub(super) distance: f64,
 }
 
+/// An end of a chord: its position on the line relative to the base, which stays precise for sources that are small against their distance.
+#[derive(Clone, Copy)]
+struct ChordEnd {
+    position: f64,
+    point: StripPoint,
+}
+
 impl StripLine {
-    /// `sin²θ₂ − sin²θ₁` of the part of the chord between `a` and `b` that is in the half plane, above the horizon and accepted.
-    pub(super) fn chord(self, mut a: StripPoint, mut b: StripPoint, acceptance: Acceptance) -> f64 {
-        let base = self.base;
-        let mut keep = |depth: &dyn Fn(f64, f64) -> f64| -> bool {
-            let da = depth(base.rho + a.rho, base.z + a.z);
-            let db = depth(base.rho + b.rho, base.z + b.z);
-            if !(da > 0.0 || db > 0.0) {
-                return false;
-            }
-            let between = |p: StripPoint, q: StripPoint, t: f64| StripPoint {
-                rho: p.rho + (q.rho - p.rho) * t,
-                z: p.z + (q.z - p.z) * t,
-            };
-            if da < 0.0 {
-                a = between(b, a, db / (db - da));
-            } else if db < 0.0 {
-                b = between(a, b, da / (da - db));
-            }
-            true
+    fn at(self, position: f64) -> ChordEnd {
+        let point = StripPoint {
+            rho: self.base.rho + position * self.across.z,
+            z: self.base.z - position * self.across.rho,
         };
-        if !(keep(&|rho, _| rho) && keep(&|_, z| z) && keep(&|rho, z| acceptance.depth(rho, z))) {
-            return 0.0;
+        ChordEnd { position, point }
+    }
+
+    /// Where `by_rho ρ + by_z z` vanishes, between an end inside (value `inside`) and one outside (value `outside`).
+    fn limit(
+        self,
+        ends: [ChordEnd; 2],
+        [inside, outside]: [f64; 2],
+        by_rho: f64,
+        by_z: f64,
+    ) -> ChordEnd {
+        let base_position = self.base.rho * self.across.z - self.base.z * self.across.rho;
+        let from_foot = -self.distance * (by_rho * self.across.rho + by_z * self.across.z)
+            / (by_rho * self.across.z - by_z * self.across.rho);
+        if from_foot.abs() < 0.5 * base_position.abs().max(self.distance) {
+            // Near the receiver: from the foot of the perpendicular, whose distance is known precisely.
+            let point = StripPoint {
+                rho: self.distance * self.across.rho + from_foot * self.across.z,
+                z: self.distance * self.across.z - from_foot * self.across.rho,
+            };
+            return ChordEnd {
+                position: from_foot - base_position,
+                point,
+            };
         }
-        let length = (b.rho - a.rho).hypot(b.z - a.z);
-        let (rho1, z1) = ((base.rho + a.rho).max(0.0), (base.z + a.z).max(0.0));
-        let (rho2, z2) = ((base.rho + b.rho).max(0.0), (base.z + b.z).max(0.0));
+        let t = inside / (inside - outside);
+        let between = |p: f64, q: f64| p + (q - p) * t;
+        ChordEnd {
+            position: between(ends[0].position, ends[1].position),
+            point: StripPoint {
+                rho: between(ends[0].point.rho, ends[1].point.rho),
+                z: between(ends[0].point.z, ends[1].point.z),
+            },
+        }
+    }
+
+    /// `sin²θ₂ − sin²θ₁` of the part of the chord between two positions that is in the half plane, above the horizon and accepted.
+    pub(super) fn chord(self, start: f64, end: f64, acceptance: Acceptance) -> f64 {
+        let (mut a, mut b) = (self.at(start), self.at(end));
+        for (by_rho, by_z) in [(1.0, 0.0), (0.0, 1.0), (-acceptance.cos, acceptance.sin)] {
+            let [da, db] = [a, b].map(|end| by_rho * end.point.rho + by_z * end.point.z);
+            if !(da > 0.0 || db > 0.0) {
+                return 0.0;
+            }
+            if da < 0.0 {
+                a = self.limit([b, a], [db, da], by_rho, by_z);
+            } else if db < 0.0 {
+                b = self.limit([a, b], [da, db], by_rho, by_z);
+            }
+        }
+        let length = (b.position - a.position).abs();
+        let (rho1, z1) = (a.point.rho.max(0.0), a.point.z.max(0.0));
+        let (rho2, z2) = (b.point.rho.max(0.0), b.point.z.max(0.0));
         let r1_squared = rho1 * rho1 + z1 * z1;
         let r2_squared = rho2 * rho2 + z2 * z2;
         let scale = r1_squared * r2_squared;

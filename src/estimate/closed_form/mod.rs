@@ -18,14 +18,16 @@
 
 pub mod aperture;
 pub mod cone;
-// pub mod directional;
+pub mod directional;
 pub mod disc;
 pub mod exchange;
 mod fan;
 mod frame;
 pub mod point;
 pub mod polygon;
+pub mod polygon_in_cone;
 mod quadrature;
+mod sign_change;
 pub mod sphere;
 
 #[cfg(test)]

@@ -19,7 +19,7 @@
 use super::fan::{Acceptance, StripLine, StripPoint, integrate_azimuth};
 use super::frame::{Frame, power_of_two_scale, triple};
 use crate::math::DVec3;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 /// Largest estimated relative rounding error with which the sum over edges is accepted.
 pub(super) const MAX_ROUNDING: f64 = 1e-11;
@@ -69,7 +69,7 @@ fn volume(vertices: &[DVec3]) -> f64 {
 pub(super) struct LocalPolygon {
     pub(super) vertices: Vec<DVec3>,
     /// Vertices less the first one: sizes small against the distance keep their precision.
-    relative: Vec<DVec3>,
+    pub(super) relative: Vec<DVec3>,
     /// Unit normal away from the receiver.
     pub(super) m: DVec3,
     /// Distance of the plane.
@@ -80,7 +80,11 @@ pub(super) struct LocalPolygon {
 
 impl LocalPolygon {
     pub(super) fn new(vertices: &[DVec3], normal: DVec3) -> Option<LocalPolygon> {
-        let world = scaled(vertices)?;
+        let mut world = scaled(vertices)?;
+        // Everything is taken relative to the nearest vertex: rounding is largest where it matters least.
+        let length = |i: &usize| world[*i].length_squared();
+        let nearest = (0..world.len()).min_by(|i, j| length(i).total_cmp(&length(j)))?;
+        world.rotate_left(nearest);
         let first = world[0];
         let area: DVec3 = world[1..]
             .windows(2)
@@ -113,7 +117,7 @@ impl LocalPolygon {
     }
 
     /// Projected solid angle above the horizon.
-    fn above_horizon(&self) -> f64 {
+    pub(super) fn above_horizon(&self) -> f64 {
         if self.height == 0.0 {
             return if self.contains_direction(DVec3::ZERO) {
                 FRAC_PI_2 * (1.0 + self.m.z).max(0.0)
@@ -217,16 +221,23 @@ impl LocalPolygon {
             let (sin, cos) = phi.sin_cos();
             let along = self.m.x * cos + self.m.y * sin;
             let k = along.hypot(self.m.z);
+            let across = StripPoint {
+                rho: along / k,
+                z: self.m.z / k,
+            };
+            // Foot of the perpendicular, in the plane of the polygon, from the first vertex to the line.
+            let offset = -first.x * sin / k * (self.m.y * cos - self.m.x * sin);
             let base = StripPoint {
-                rho: first.x * cos,
-                z: first.z,
+                rho: first.x * cos + offset * across.rho,
+                z: first.z + offset * across.z,
             };
             let line = StripLine {
                 base,
+                across,
                 distance: self.height / k,
             };
             let plane_distance = |d: DVec3| -first.x * sin + (d.y * cos - d.x * sin);
-            let mut ends: Vec<StripPoint> = Vec::with_capacity(4);
+            let mut ends: Vec<f64> = Vec::with_capacity(4);
             for i in 0..n {
                 let (a, b) = (self.relative[i], self.relative[(i + 1) % n]);
                 let (ya, yb) = (plane_distance(a), plane_distance(b));
@@ -234,13 +245,9 @@ impl LocalPolygon {
                     continue;
                 }
                 let p = a + (b - a) * (ya / (ya - yb));
-                ends.push(StripPoint {
-                    rho: p.x * cos + p.y * sin,
-                    z: p.z,
-                });
+                ends.push((p.x * cos + p.y * sin) * across.z - p.z * across.rho);
             }
-            let position = |p: &StripPoint| p.rho * self.m.z - p.z * along;
-            ends.sort_by(|p, q| position(p).total_cmp(&position(q)));
+            ends.sort_by(f64::total_cmp);
             let sum: f64 = ends
                 .chunks_exact(2)
                 .map(|pair| line.chord(pair[0], pair[1], acceptance))
@@ -269,124 +276,10 @@ impl EdgeSum {
         }
         let angle = sine.atan2(a.dot(b));
         self.value += 0.5 * angle * (cross.z / sine);
-        self.rounding += 2.0 * f64::EPSILON * angle * (a.length() * edge.length() / sine).max(1.0);
+        // Of the angle, and of the inclination of the edge's plane (which does not matter where that is level).
+        let (la, lb, length) = (a.length(), b.length(), edge.length());
+        let inclination = cross.x.hypot(cross.y) / sine;
+        let rounding = length / la.min(lb) + angle * (1.0 + la * length / sine * inclination);
+        self.rounding += f64::EPSILON * rounding;
     }
-}
-
-/// Projected solid angle, sr, of a polygon (two-sided) within a cone of half angle `half_angle_rad` about the receiver's normal.
-///
-/// Contour of straight edges and arcs of the cone, each arc of azimuth Δφ with `½ sin²β Δφ`.
-pub fn polygon_in_cone(vertices: &[DVec3], normal: DVec3, half_angle_rad: f64) -> f64 {
-    let (Some(polygon), Some(acceptance)) = (
-        LocalPolygon::new(vertices, normal),
-        Acceptance::new(half_angle_rad),
-    ) else {
-        return 0.0;
-    };
-    if acceptance.cos == 0.0 {
-        return polygon.above_horizon().max(0.0);
-    }
-    if polygon.height == 0.0 {
-        let inside = polygon.contains_direction(DVec3::ZERO);
-        return if inside {
-            super::cone::half_space_about_axis(polygon.m, acceptance)
-        } else {
-            0.0
-        };
-    }
-    polygon.accepted(acceptance).max(0.0)
-}
-
-impl LocalPolygon {
-    fn accepted(&self, acceptance: Acceptance) -> f64 {
-        let Acceptance { cos, sin } = acceptance;
-        let inside = |p: DVec3| p.z > 0.0 && acceptance.depth(p.x.hypot(p.y), p.z) > 0.0;
-        let mut sum = EdgeSum::default();
-        let mut azimuths = Vec::new();
-        for (a, b) in self.edges() {
-            azimuths.push(a.y.atan2(a.x));
-            let mut stops = vec![0.0];
-            stops.extend(edge_crossings(a, b - a, acceptance));
-            stops.push(1.0);
-            for pair in stops.windows(2) {
-                let point = |t: f64| if t == 1.0 { b } else { a + (b - a) * t };
-                if pair[0] > 0.0 {
-                    let p = point(pair[0]);
-                    azimuths.push(p.y.atan2(p.x));
-                }
-                if inside(point(0.5 * (pair[0] + pair[1]))) {
-                    sum.add(point(pair[0]), point(pair[1]));
-                }
-            }
-        }
-        azimuths.sort_by(f64::total_cmp);
-        let mut arc = 0.0;
-        for i in 0..azimuths.len() {
-            let start = azimuths[i];
-            let end = if i + 1 < azimuths.len() {
-                azimuths[i + 1]
-            } else {
-                azimuths[0] + 2.0 * PI
-            };
-            let (y, x) = (0.5 * (start + end)).sin_cos();
-            if end > start && self.contains_direction(DVec3::new(sin * x, sin * y, cos)) {
-                arc += end - start;
-            }
-        }
-        let value = self.winding * sum.value + 0.5 * sin * sin * arc;
-        let rounding = sum.rounding
-            + if arc > 0.0 {
-                8.0 * f64::EPSILON * sin * sin
-            } else {
-                0.0
-            };
-        if sum.value == 0.0 && arc == 0.0 {
-            0.0
-        } else if rounding <= MAX_ROUNDING * value {
-            value
-        } else {
-            self.strips(&self.cone_crossings(acceptance), acceptance)
-        }
-    }
-
-    /// Azimuths, relative to the first vertex, where the boundary passes through the edge of the cone.
-    fn cone_crossings(&self, acceptance: Acceptance) -> Vec<f64> {
-        let n = self.vertices.len();
-        let first = self.vertices[0];
-        let mut azimuths = Vec::new();
-        for i in 0..n {
-            let (da, db) = (self.relative[i], self.relative[(i + 1) % n]);
-            for t in edge_crossings(self.vertices[i], db - da, acceptance) {
-                let d = da + (db - da) * t;
-                azimuths.push((first.y + d.y).atan2(first.x + d.x));
-            }
-        }
-        azimuths
-    }
-}
-
-/// Parameters t in (0, 1) at which a + t·d passes through the edge of the cone, in ascending order; d not shortened by rounding.
-fn edge_crossings(a: DVec3, d: DVec3, acceptance: Acceptance) -> Vec<f64> {
-    let Acceptance { cos, sin } = acceptance;
-    let form = |p: DVec3, q: DVec3| cos * cos * (p.x * q.x + p.y * q.y) - sin * sin * p.z * q.z;
-    // The discriminant is the margin by which the plane of the edge cuts the cone.
-    let w = a.cross(d);
-    let flat = w.x.hypot(w.y);
-    let discriminant = cos * cos * (sin * flat - cos * w.z.abs()) * (sin * flat + cos * w.z.abs());
-    if discriminant <= 0.0 {
-        return Vec::new();
-    }
-    let rho = a.x.hypot(a.y);
-    let (first, half, last) = (
-        form(d, d),
-        form(a, d),
-        (cos * rho - sin * a.z) * (cos * rho + sin * a.z),
-    );
-    let sum = -(half + discriminant.sqrt().copysign(half));
-    let mut roots: Vec<f64> = [sum / first, last / sum]
-        .into_iter()
-        .filter(|t| *t > 0.0 && *t < 1.0)
-        .collect();
-    roots.sort_by(f64::total_cmp);
-    roots
 }

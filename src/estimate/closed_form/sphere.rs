@@ -80,6 +80,37 @@ pub fn cap(half_angle_rad: f64, tilt_rad: f64) -> f64 {
     )
 }
 
+/// Projected solid angle, sr, of a cap of the sphere of directions within a cone; the same outline as a disc.
+pub fn cap_in_cone(cap_half_angle_rad: f64, tilt_rad: f64, half_angle_rad: f64) -> f64 {
+    let Some(acceptance) = Acceptance::new(half_angle_rad) else {
+        return 0.0;
+    };
+    if acceptance.cos == 0.0 {
+        return cap(cap_half_angle_rad, tilt_rad);
+    }
+    if cap_half_angle_rad.is_nan() || cap_half_angle_rad <= 0.0 || !tilt_rad.is_finite() {
+        return 0.0;
+    }
+    let (sin, cos) = tilt_rad.sin_cos();
+    let axis = DVec3::new(sin, 0.0, cos);
+    let whole = PI * acceptance.sin * acceptance.sin;
+    if cap_half_angle_rad >= PI {
+        whole
+    } else if cap_half_angle_rad > FRAC_PI_2 {
+        (whole - cap_in_cone(PI - cap_half_angle_rad, PI - tilt_rad.abs(), half_angle_rad)).max(0.0)
+    } else if cap_half_angle_rad == FRAC_PI_2 {
+        cone::half_space_about_axis(axis, acceptance)
+    } else {
+        disc::disc_in_acceptance(
+            axis * cap_half_angle_rad.cos(),
+            axis,
+            cap_half_angle_rad.sin(),
+            DVec3::Z,
+            acceptance,
+        )
+    }
+}
+
 /// Projected solid angle of a cap: sine and cosine of its half angle (at most a right angle), cosine of the tilt, and
 /// sin²α − cos²τ (not positive where the cap is wholly above or wholly below the horizon).
 fn projected_cap(sin: f64, cos: f64, tilt_cos: f64, excess: f64) -> f64 {

@@ -20,11 +20,12 @@
 mod kernel;
 mod prepare;
 
-pub(super) use kernel::{PathSums, trace};
+pub(super) use kernel::trace;
 pub(super) use prepare::PathScene;
 
 /// Reflections after which a path may end by chance.
 const ROULETTE_AFTER: u32 = 3;
 
-/// Reflections after which a path is taken to be endless: with reflectances below 1 − 1e-4 none gets here by chance.
-const ENDLESS: u32 = 4_000_000;
+/// Reflections without loss, one after the other, after which a path is taken to be endless.
+const ENDLESS: u32 = 100_000;
+

@@ -22,7 +22,7 @@ pub(in crate::estimate) struct PathScene<'a> {
     /// Reflectances at the nodes, a padded row a surface.
     pub(super) reflectance: Vec<f64>,
     /// The largest reflectance of each surface at the nodes.
-    pub(super) survival: Vec<f64>,
+    pub(in crate::estimate) survival: Vec<f64>,
     /// Length of a padded row.
     pub(super) row: usize,
     /// Groups of sources.

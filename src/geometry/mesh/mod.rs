@@ -15,6 +15,7 @@
 mod area;
 mod error;
 mod query;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod topology;

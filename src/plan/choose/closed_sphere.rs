@@ -43,7 +43,7 @@ pub fn closed_sphere(scene: &Scene) -> Option<ClosedSphere> {
 }
 
 fn apply(scene: &Scene, plan: &mut Plan) {
-    let Some(ClosedSphere { sphere, .. }) = closed_sphere(scene) else { return };
+    let Some(ClosedSphere { sphere, surface }) = closed_sphere(scene) else { return };
     let on_the_wall: Vec<bool> = scene
         .instruments
         .iter()
@@ -58,7 +58,11 @@ fn apply(scene: &Scene, plan: &mut Plan) {
         })
         .collect();
     for term in &mut plan.kept {
-        if term.id.transport == Transport::Reflected && on_the_wall[term.id.instrument()] {
+        // ρ/(1 − ρ) is a number only where ρ is one.
+        let reflectance = &scene.surfaces[surface].reflectance;
+        let band = scene.sources[term.id.source()].density.support().hull();
+        let grey = band.and_then(|(low, high)| reflectance.is_constant_over(low, high)).is_some_and(|rho| rho < 1.0);
+        if grey && term.id.transport == Transport::Reflected && on_the_wall[term.id.instrument()] {
             term.method = Method::ClosedSphere;
         }
     }

@@ -1,4 +1,4 @@
-//! Reflections that are provably below a stated share of the direct light are left out, and the proof enters the budget.
+//! Reflections that are provably below a stated share of the sources' radiance are left out, and the proof enters the budget.
 //!
 //! ```text
 //! reflected radiance ≤ ρ L_max      E_reflected ≤ ρ L_max ∫R cosθ dω      (maximum principle for Lambertian surfaces)
@@ -13,12 +13,12 @@ use crate::plan::{Bound, Plan, Transport};
 use crate::scene::Scene;
 use crate::source::Emitter;
 
-/// The share of the direct irradiance below which reflections are left out.
-pub const NEGLIGIBLE_SHARE: f64 = 1e-6;
+/// The largest reflectance with which reflections are left out.
+const NEGLIGIBLE_SHARE: f64 = 1e-6;
 
 pub(super) const RULE: Rule = Rule {
     name: "weak_reflections",
-    sentence: "reflections are provably below 1e-6 of the weakest possible direct reading",
+    sentence: "no surface reflects more than 1e-6, so reflections are bounded by that share of the source's radiance",
     apply,
 };
 
@@ -26,13 +26,14 @@ fn apply(scene: &Scene, plan: &mut Plan) {
     let every_emitter_has_radiance = scene.sources.iter().all(|s| matches!(s.emitter, Emitter::Area { .. } | Emitter::Environment));
     let covered = scene.elements.iter().flat_map(|e| [e.front, e.back]);
     let largest = covered.map(|s| scene.surfaces[s].reflectance.max_over(0.0, f64::INFINITY)).fold(0.0, f64::max);
-    // Only an environment that is seen unobstructed gives a lower limit of the direct light without any geometry.
     if !every_emitter_has_radiance || largest > NEGLIGIBLE_SHARE || largest <= 0.0 {
         return;
     }
     let brightness = |i: usize, c: usize, s: usize| {
         let channel = &scene.instruments[i].sensor.channels[c];
-        channel.scale * scene.sources[s].density.integral(&[&channel.responsivity])
+        let sensor = &scene.instruments[i].sensor;
+        let scale = channel.indication_per_irradiance(&sensor.aperture, &sensor.acceptance).unwrap_or(channel.scale);
+        scale * scene.sources[s].density.integral(&[&channel.responsivity])
     };
     plan.omit(RULE.name, |term| {
         if term.id.transport == Transport::Direct {

@@ -3,4 +3,5 @@
 mod factors;
 mod library;
 mod products;
+mod quadrature;
 mod table_text;

@@ -1,0 +1,24 @@
+//! `etendue check SCENE`: every problem of the file, or "ok".
+
+use crate::{Failure, disk, print};
+
+/// Every problem of a scene file, or "ok".
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The scene file.
+    scene: String,
+    /// The folder that no file may lie outside of; by default the one that holds `scenes/` and `sensors/`, else the scene's own.
+    #[arg(long, value_name = "DIR")]
+    root: Option<String>,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let scene = disk::scene(&arguments.scene, arguments.root.as_deref())?;
+    let count = |n: usize, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
+    print(&format!(
+        "ok: {}, {}, {}\n",
+        count(scene.sources.len(), "source"),
+        count(scene.elements.len(), "surface"),
+        count(scene.instruments.len(), "instrument"),
+    ))
+}

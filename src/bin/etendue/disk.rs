@@ -1,0 +1,49 @@
+//! Files on disk.
+
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+use etendue::scene::{FileProblem, Files, Scene, read_scene};
+
+use crate::Failure;
+
+/// The disk, as the library sees it.
+pub(crate) struct Disk;
+
+impl Files for Disk {
+    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileProblem> {
+        let problem = |e: std::io::Error| match e.kind() {
+            ErrorKind::NotFound => FileProblem::Missing,
+            _ => FileProblem::Unreadable(e.to_string()),
+        };
+        let file = File::open(path).map_err(problem)?;
+        let about = file.metadata().map_err(problem)?;
+        if !about.is_file() {
+            return Err(FileProblem::Unreadable("it is not a file".to_owned()));
+        }
+        if about.len() > most_bytes {
+            return Err(FileProblem::TooLong { bytes: about.len() });
+        }
+        let mut bytes = Vec::new();
+        // A file that grows meanwhile is cut at the limit plus one byte, and so noticed.
+        file.take(most_bytes + 1).read_to_end(&mut bytes).map_err(problem)?;
+        match bytes.len() as u64 {
+            n if n > most_bytes => Err(FileProblem::TooLong { bytes: n }),
+            _ => Ok(bytes),
+        }
+    }
+
+    fn neighbours(&self, path: &str) -> Vec<String> {
+        let folder = Path::new(path).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+        let mut names: Vec<String> = entries.flatten().filter_map(|e| e.file_name().into_string().ok()).collect();
+        names.sort();
+        names
+    }
+}
+
+/// Reads a scene, or says everything that is wrong with it.
+pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
+    read_scene(path, &Disk, root).map_err(|problems| Failure::Input(problems.to_string()))
+}

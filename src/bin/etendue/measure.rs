@@ -1,0 +1,138 @@
+//! `etendue measure SCENE`: read every instrument.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::ValueEnum;
+use etendue::estimate::run::with_threads;
+use etendue::estimate::{Stop, Watch};
+use etendue::measurement::{Measurement, measure};
+use etendue::report::{csv, json, text};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::{Failure, disk, explain, print};
+
+/// Read every instrument of a scene.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The scene file.
+    scene: String,
+    /// Stop when the expanded uncertainty (95 %) is at most this share of each reading, e.g. 0.1% or 0.001 [default: 1%].
+    #[arg(long, value_name = "SHARE", value_parser = share, conflicts_with = "samples")]
+    target: Option<f64>,
+    /// Start no further round of samples after this time, e.g. 2s, 500ms or 1min.
+    #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with = "samples")]
+    budget: Option<f64>,
+    /// Take this many samples for each sampled contribution, rounded up to 16 times a power of two.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=(1 << 32)))]
+    samples: Option<u64>,
+    /// Seed of the random numbers: the same seed gives the same bits.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Threads; as many as there are cores by default. Readings do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// How to write the readings.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Write the readings into this folder as `<scene>.txt`, `.json` or `.csv` and not to stdout.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    plan: explain::Options,
+    /// The folder that no file may lie outside of; by default the one that holds `scenes/` and `sensors/`, else the scene's own.
+    #[arg(long, value_name = "DIR")]
+    root: Option<String>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    /// A table for a person.
+    Text,
+    /// Everything, for programs.
+    Json,
+    /// A row a reading.
+    Csv,
+}
+
+impl Format {
+    fn write(self, measurement: &Measurement) -> (String, &'static str) {
+        match self {
+            Format::Text => (text::to_text(measurement), "txt"),
+            Format::Json => (json::to_json(measurement), "json"),
+            Format::Csv => (csv::to_csv(measurement), "csv"),
+        }
+    }
+}
+
+fn share(given: &str) -> Result<f64, String> {
+    let (number, scale) = match given.trim().strip_suffix('%') {
+        Some(percent) => (percent, 0.01),
+        None => (given.trim(), 1.0),
+    };
+    match number.trim().parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x * scale),
+        _ => Err("a positive share such as 0.1% or 0.001".to_owned()),
+    }
+}
+
+fn seconds(given: &str) -> Result<f64, String> {
+    let given = given.trim();
+    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
+    let found = units.iter().find_map(|(unit, scale)| Some((given.strip_suffix(unit)?, *scale)));
+    match found.and_then(|(number, scale)| Some((number.trim().parse::<f64>().ok()?, scale))) {
+        Some((x, scale)) if x > 0.0 && x.is_finite() => Ok(x * scale),
+        _ => Err("a positive time with its unit, such as 2s, 500ms or 1min".to_owned()),
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let scene = disk::scene(&arguments.scene, arguments.root.as_deref())?;
+    let plan = arguments.plan.plan(&scene)?;
+    let stop = Stop {
+        // A budget of time alone is used up.
+        target: match (arguments.target, arguments.budget, arguments.samples) {
+            (None, None, None) => Stop::default().target,
+            (target, _, _) => target,
+        },
+        budget_seconds: arguments.budget,
+        samples: arguments.samples,
+    };
+    let bar = progress_bar();
+    let start = Instant::now();
+    let watch = Watch { now: &|| start.elapsed().as_secs_f64(), progress: &|share| bar.set_position((1000.0 * share) as u64) };
+    let threads = arguments.threads.map(usize::from);
+    let measured = with_threads(threads, || measure(&scene, &plan, &stop, arguments.seed, &watch));
+    bar.finish_and_clear();
+    let measurement = measured.map_err(|e| Failure::Run(format!("error: {e}")))?;
+    let (written, extension) = arguments.format.write(&measurement);
+    match &arguments.out {
+        None => print(&written),
+        Some(folder) => save(folder, &arguments.scene, extension, &written),
+    }
+}
+
+/// Writes beside the target first and then moves: there is never half a file.
+fn save(folder: &Path, scene: &str, extension: &str, written: &str) -> Result<(), Failure> {
+    let name = Path::new(scene).file_stem().unwrap_or_default();
+    let target = folder.join(name).with_extension(extension);
+    let partial = target.with_extension(format!("{extension}.partial"));
+    let failed = |e: std::io::Error| Failure::Run(format!("error: cannot write `{}`: {e}", target.display()));
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    std::fs::write(&partial, written).map_err(failed)?;
+    std::fs::rename(&partial, &target).map_err(failed)?;
+    print(&format!("{}\n", target.display()))
+}
+
+/// A bar on a terminal, nothing elsewhere.
+fn progress_bar() -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(1000);
+    if let Ok(style) = ProgressStyle::with_template("  measuring {bar:40} {percent:>3} %  {elapsed}") {
+        bar.set_style(style);
+    }
+    bar
+}

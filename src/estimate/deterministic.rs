@@ -1,0 +1,217 @@
+//! Direct light of a source that nothing hides, from its formula.
+//!
+//! | aperture | acceptance | how |
+//! |---|---|---|
+//! | point | hemisphere, cone | closed form |
+//! | point | rotationally symmetric table | ∫ R dG over the closed form of the cone |
+//! | disc or rectangle | hemisphere | solid angle of the aperture, coaxial discs, exchange of polygons where they apply |
+//! | disc or rectangle | any | adaptive quadrature of the point's formula over the aperture |
+
+use super::closed_form::aperture::{self, Bounded, aperture_average};
+use super::closed_form::{directional, disc, exchange, point, polygon, polygon_in_cone, sphere};
+use crate::geometry::shape::{Shape, Side};
+use crate::math::DVec3;
+use crate::plan::choose::closed_sphere;
+use crate::scene::{Pose, Scene};
+use crate::sensor::{Acceptance, Aperture, Sensor};
+use crate::source::{Emitter, Source};
+
+/// Relative tolerance asked of every quadrature.
+const TOLERANCE: f64 = 1e-11;
+
+/// Mean weighted irradiance over the aperture per unit of the source's density; `None` if a quadrature does not converge.
+pub(super) fn direct(scene: &Scene, sensor: &Sensor, pose: &Pose, source: &Source) -> Option<Bounded> {
+    if let Some(value) = whole_aperture(scene, sensor, pose, source) {
+        return Some(value);
+    }
+    let area = match sensor.aperture {
+        Aperture::Point => return Some(at_point(scene, &sensor.acceptance, pose, pose.at, source)),
+        Aperture::Disc { radius_m } => aperture::Aperture::Disc {
+            centre: DVec3::ZERO,
+            radius_u: radius_m * pose.x_axis,
+            radius_v: radius_m * pose.y_axis(),
+        },
+        Aperture::Rectangle { half_width_m, half_height_m } => {
+            let (u, v) = (half_width_m * pose.x_axis, half_height_m * pose.y_axis());
+            aperture::Aperture::Parallelogram { corner: -u - v, edge_u: 2.0 * u, edge_v: 2.0 * v }
+        }
+    };
+    // Positions are taken relative to the centre of the aperture: a scene far from the origin keeps its digits.
+    aperture_average(area, &|offset| at_point(scene, &sensor.acceptance, pose, pose.at + offset, source).value, TOLERANCE)
+}
+
+/// The same at one point of the aperture.
+pub(super) fn at_point(scene: &Scene, acceptance: &Acceptance, pose: &Pose, at: DVec3, source: &Source) -> Bounded {
+    let exact = |value: f64| Bounded { value, error: 0.0 };
+    let response = |to: DVec3| {
+        let (x, y, z) = (pose.x_axis.dot(to), pose.y_axis().dot(to), pose.normal.dot(to));
+        acceptance.at(z, x.hypot(y), y.atan2(x))
+    };
+    match &source.emitter {
+        Emitter::Point { at: lamp } => {
+            let to = *lamp - at;
+            exact(response(to) * point::irradiance_factor(to, pose.normal))
+        }
+        Emitter::Directional { travels } => exact(response(-*travels) * (-travels.dot(pose.normal)).max(0.0)),
+        Emitter::Environment => exact(acceptance.projected_solid_angle_sr()),
+        Emitter::Area { elements } => {
+            let of_cone = |half_angle_rad: f64| -> f64 {
+                elements.iter().map(|&(e, side)| within_cone(&scene.elements[e].shape, side, at, pose.normal, half_angle_rad)).sum()
+            };
+            match acceptance {
+                Acceptance::Cosine => exact(
+                    elements.iter().map(|&(e, side)| over_hemisphere(&scene.elements[e].shape, side, at, pose.normal)).sum(),
+                ),
+                Acceptance::Cone { half_angle_rad } => exact(of_cone(*half_angle_rad)),
+                Acceptance::Directional(table) => {
+                    let Some((theta, values)) = table.rotationally_symmetric() else {
+                        return Bounded { value: f64::NAN, error: f64::INFINITY };
+                    };
+                    let response: Vec<(f64, f64)> = theta.iter().copied().zip(values.iter().copied()).collect();
+                    let breaks = edges_rad(scene, elements, at, pose.normal);
+                    directional::weighted_by_table(&of_cone, &response, &breaks, TOLERANCE)
+                }
+            }
+        }
+    }
+}
+
+/// Angles from the normal at which a source begins or ends, as far as its bounding spheres tell.
+fn edges_rad(scene: &Scene, elements: &[(usize, Side)], at: DVec3, normal: DVec3) -> Vec<f64> {
+    let mut edges: Vec<f64> = elements
+        .iter()
+        .flat_map(|&(e, _)| {
+            let angle = |to: DVec3| normal.cross(to).length().atan2(normal.dot(to));
+            match &scene.elements[e].shape {
+                Shape::Rectangle(r) => r.corners().map(|c| angle(c - at)).to_vec(),
+                shape => {
+                    let (centre, radius) = shape.bounding_sphere();
+                    let half = (radius / (centre - at).length()).min(1.0).asin();
+                    vec![angle(centre - at) - half, angle(centre - at) + half]
+                }
+            }
+        })
+        .collect();
+    edges.sort_by(f64::total_cmp);
+    edges
+}
+
+fn over_hemisphere(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> f64 {
+    match shape {
+        Shape::Rectangle(r) => polygon::polygon(&facing(r.corners().map(|c| c - at), side), normal),
+        Shape::Disc(d) => disc::disc(d.centre - at, side.sign() * d.normal, d.radius_m, normal),
+        Shape::Sphere(s) => match (side, inside(s.centre - at, s.radius_m)) {
+            (Side::Front, false) => sphere::sphere(s.centre - at, s.radius_m, normal),
+            (Side::Back, true) => std::f64::consts::PI,
+            _ => 0.0,
+        },
+        Shape::Mesh(m) => (0..m.triangle_count() as u32)
+            .filter_map(|t| m.triangle(t))
+            .map(|corners| polygon::polygon(&facing(corners.map(|c| c - at), side), normal))
+            .sum(),
+    }
+}
+
+fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_rad: f64) -> f64 {
+    let of_polygon = |corners: &[DVec3]| {
+        if polygon::receiver_in_front(corners) { polygon_in_cone::polygon_in_cone(corners, normal, half_angle_rad) } else { 0.0 }
+    };
+    match shape {
+        Shape::Rectangle(r) => of_polygon(&facing(r.corners().map(|c| c - at), side)),
+        Shape::Disc(d) => {
+            let front = side.sign() * d.normal;
+            if disc::receiver_in_front(d.centre - at, front) {
+                disc::disc_in_cone(d.centre - at, front, d.radius_m, normal, half_angle_rad)
+            } else {
+                0.0
+            }
+        }
+        Shape::Sphere(s) => match (side, inside(s.centre - at, s.radius_m)) {
+            (Side::Front, false) => sphere::sphere_in_cone(s.centre - at, s.radius_m, normal, half_angle_rad),
+            (Side::Back, true) => super::closed_form::cone::projected_solid_angle(half_angle_rad),
+            _ => 0.0,
+        },
+        Shape::Mesh(m) => (0..m.triangle_count() as u32)
+            .filter_map(|t| m.triangle(t))
+            .map(|corners| of_polygon(&facing(corners.map(|c| c - at), side)))
+            .sum(),
+    }
+}
+
+/// Whether a receiver is within a sphere, or on it to the rounding of its coordinates.
+fn inside(centre: DVec3, radius_m: f64) -> bool {
+    centre.length() <= radius_m * (1.0 + 1e-12)
+}
+
+/// Corners in the order that shows the emitting side counter-clockwise.
+fn facing<const N: usize>(mut corners: [DVec3; N], side: Side) -> [DVec3; N] {
+    if side == Side::Back {
+        corners.reverse();
+    }
+    corners
+}
+
+/// Formulas for the aperture as a whole: a cosine receptor only.
+fn whole_aperture(scene: &Scene, sensor: &Sensor, pose: &Pose, source: &Source) -> Option<Bounded> {
+    let area = sensor.aperture.area_m2()?;
+    let exact = |value: f64| Some(Bounded { value, error: 0.0 });
+    match &source.emitter {
+        Emitter::Environment => return exact(sensor.acceptance.projected_solid_angle_sr()),
+        Emitter::Directional { .. } => return Some(at_point(scene, &sensor.acceptance, pose, pose.at, source)),
+        _ if sensor.acceptance != Acceptance::Cosine => return None,
+        Emitter::Point { at } => {
+            let to = *at - pose.at;
+            let height = pose.normal.dot(to);
+            if height <= 0.0 {
+                return exact(0.0);
+            }
+            // The flux through the aperture is I Ω, its mean irradiance I Ω / A.
+            return exact(match sensor.aperture {
+                Aperture::Disc { radius_m } => point::disc_solid_angle(radius_m, height, pose.normal.cross(to).length()) / area,
+                Aperture::Rectangle { half_width_m, half_height_m } => {
+                    let (u, v) = (half_width_m * pose.x_axis, half_height_m * pose.y_axis());
+                    point::parallelogram_solid_angle(-to - u - v, 2.0 * u, 2.0 * v) / area
+                }
+                Aperture::Point => return None,
+            });
+        }
+        Emitter::Area { .. } => {}
+    }
+    let Emitter::Area { elements } = &source.emitter else { return None };
+    let [(e, side)] = elements.as_slice() else { return None };
+    match (&scene.elements[*e].shape, sensor.aperture) {
+        (Shape::Disc(d), Aperture::Disc { radius_m }) => {
+            let to = d.centre - pose.at;
+            let height = pose.normal.dot(to);
+            let facing = side.sign() * d.normal;
+            let size = height.abs() + d.radius_m + radius_m;
+            let coaxial = pose.normal.cross(to).length() <= 1e-12 * size && (facing + pose.normal).length() <= 1e-12 && height > 0.0;
+            coaxial.then(|| Bounded { value: exchange::coaxial_discs(radius_m, d.radius_m, height) / area, error: 0.0 })
+        }
+        (Shape::Rectangle(r), Aperture::Rectangle { half_width_m, half_height_m }) => {
+            let (u, v) = (half_width_m * pose.x_axis, half_height_m * pose.y_axis());
+            let receiver = [-u - v, u - v, u + v, v - u];
+            let emitter = r.corners().map(|c| c - pose.at);
+            // Each wholly on the facing side of the other; a common edge is allowed.
+            let size = emitter.iter().map(|c| c.length()).fold(0.0, f64::max);
+            let ahead = |points: &[DVec3], origin: DVec3, normal: DVec3| points.iter().all(|p| normal.dot(*p - origin) >= -1e-12 * size);
+            if !(ahead(&emitter, DVec3::ZERO, pose.normal) && ahead(&receiver, r.centre - pose.at, side.sign() * r.normal())) {
+                return None;
+            }
+            let etendue = exchange::polygons(&emitter, &receiver, TOLERANCE)?;
+            Some(Bounded { value: etendue.value / area, error: etendue.error / area })
+        }
+        _ => None,
+    }
+}
+
+/// Reflected irradiance at the wall of a closed sphere per unit of the source's intensity: `4π ρ / (A (1 − ρ))`.
+///
+/// `None` if the scene is not such a sphere, or its reflectance is not one number below one where the light is.
+pub(super) fn sphere_wall(scene: &Scene, source: &Source) -> Option<f64> {
+    let found = closed_sphere(scene)?;
+    let (low, high) = source.density.support().hull()?;
+    let rho = scene.surfaces[found.surface].reflectance.is_constant_over(low, high)?;
+    let r = found.sphere.radius_m;
+    Some(rho / (1.0 - rho) / r / r)
+}

@@ -1,0 +1,172 @@
+//! Direct light of a source that something may hide.
+//!
+//! ```text
+//! E = ⟨ β E₀(x) + g (V − β) ⟩        g: a connection as if it were clear, V: whether it is, E₀ = ⟨g⟩ in closed form
+//! ```
+//!
+//! β is the share of the light that a pilot run found clear, with random numbers of its own; for any fixed β the estimate is
+//! unbiased. Where nothing hides the source β = 1 and V = 1: the closed form comes out without any spread. Where all is hidden,
+//! zero does. Between the two, in the penumbra, most of the variation of g is taken away. Without a closed form β = 0.
+
+
+use super::closed_form::aperture::Bounded;
+use super::deterministic::at_point;
+use super::job::Piece;
+use super::light::Lights;
+use super::receiver::Receiver;
+use super::{Counters, REPLICATES};
+use crate::geometry::rays::{LANES, Rays};
+use crate::geometry::world::World;
+use crate::math::random::Stream;
+use crate::plan::choose::{Formula, formula};
+use crate::plan::{Term, Visibility};
+use crate::scene::Scene;
+use crate::sensor::{Acceptance, Aperture, Sensor};
+use crate::source::{Emitter, Source};
+
+/// Connections of the pilot run.
+const PILOT: u32 = 64;
+
+/// Direct light of one source.
+pub(super) struct SourceJob<'a> {
+    /// Index into `Scene::sources`.
+    pub(super) source: usize,
+    pub(super) light: &'a Source,
+    lights: Lights,
+    /// Whether there is a closed form at a point of the aperture.
+    has_formula: bool,
+    /// Whether something may stand in the way.
+    pub(super) tested: bool,
+    /// The most that a source with a radiance can give, per unit of it; zero for a source without extent.
+    pub(super) largest: f64,
+}
+
+impl<'a> SourceJob<'a> {
+    pub(super) fn new(scene: &'a Scene, sensor: &Sensor, term: &Term, naive: bool) -> SourceJob<'a> {
+        let source = term.id.source();
+        let light = &scene.sources[source];
+        let pointlike = Sensor { aperture: Aperture::Point, ..sensor.clone() };
+        SourceJob {
+            source,
+            light,
+            lights: Lights::new(scene, [(light, 0, 1.0)]),
+            // The naive plan is a check on the formulas and must not use them.
+            has_formula: !naive && formula(scene, &pointlike, light) == Formula::Exact,
+            tested: term.visibility == Visibility::Tested,
+            largest: if matches!(light.emitter, Emitter::Area { .. }) { sensor.acceptance.projected_solid_angle_sr() } else { 0.0 },
+        }
+    }
+
+    fn formula(&self, scene: &Scene, acceptance: &Acceptance, receiver: &Receiver<'_>, at: crate::math::DVec3) -> f64 {
+        let Bounded { value, .. } = at_point(scene, acceptance, &receiver.pose, at, self.light);
+        value
+    }
+}
+
+pub(super) fn pilot(job: &SourceJob<'_>, world: &World, receiver: &Receiver<'_>, stream: Stream) -> (f64, Counters) {
+    if !job.has_formula {
+        return (0.0, Counters::default());
+    }
+    let (mut all, mut clear, mut rays) = (0.0, 0.0, 0);
+    each_connection(job, world, receiver, &[stream], (0, PILOT), |_, _, g, visible| {
+        all += g;
+        clear += if visible { g } else { 0.0 };
+        rays += u64::from(g > 0.0);
+    });
+    let share = if all > 0.0 { clear / all } else { 1.0 };
+    (share, Counters { rays: if job.tested { rays } else { 0 }, samples: u64::from(PILOT), ..Counters::default() })
+}
+
+pub(super) fn sample(
+    scene: &Scene,
+    job: &SourceJob<'_>,
+    world: &World,
+    receiver: &Receiver<'_>,
+    stream: Stream,
+    (first, count): (u32, u32),
+    share_clear: f64,
+) -> Piece {
+    let streams: [Stream; REPLICATES] = std::array::from_fn(|r| stream.child(r as u64));
+    let beta = if job.has_formula { share_clear } else { 0.0 };
+    let at_centre = if beta > 0.0 { job.formula(scene, receiver.acceptance, receiver, receiver.pose.at) } else { 0.0 };
+    let mut piece = Piece {
+        sums: vec![0.0; REPLICATES],
+        connections: 0,
+        clear: 0,
+        potential: 0.0,
+        counters: Counters { samples: u64::from(count) * REPLICATES as u64, ..Counters::default() },
+    };
+    each_connection(job, world, receiver, &streams, (first, count), |replicate, at, g, visible| {
+        let known = match receiver.aperture {
+            _ if beta == 0.0 => 0.0,
+            Aperture::Point => at_centre,
+            _ => job.formula(scene, receiver.acceptance, receiver, at),
+        };
+        let v = f64::from(visible);
+        // Written so that β = V leaves the closed form alone, without g's rounding.
+        piece.sums[replicate] += beta * known + g * (v - beta);
+        if g > 0.0 {
+            piece.connections += 1;
+            piece.clear += u64::from(visible);
+            piece.potential += g;
+        }
+    });
+    piece.counters.rays = if job.tested { piece.connections } else { 0 };
+    piece
+}
+
+/// Calls `take(replicate, point of the aperture, g, whether it is clear)` for every point of every stream, sixteen at a time.
+fn each_connection(
+    job: &SourceJob<'_>,
+    world: &World,
+    receiver: &Receiver<'_>,
+    streams: &[Stream],
+    (first, count): (u32, u32),
+    mut take: impl FnMut(usize, crate::math::DVec3, f64, bool),
+) {
+    let items = count as usize * streams.len();
+    let mut rays = Rays::none();
+    rays.leaving = [receiver.resting_on; LANES];
+    rays.leaving_part = [receiver.resting_part; LANES];
+    let mut g = [0.0; LANES];
+    for start in (0..items).step_by(LANES) {
+        let lanes = LANES.min(items - start);
+        rays.active = [false; LANES];
+        for lane in 0..lanes {
+            let item = start + lane;
+            let u = streams[item % streams.len()].four(first + (item / streams.len()) as u32, 0);
+            let at = receiver.point([u[2], u[3]]);
+            let light = job.lights.sample(at, [u[0], u[1]]);
+            let cosine = receiver.pose.normal.dot(light.to);
+            g[lane] = if light.weight > 0.0 && cosine > 0.0 { light.weight * cosine * receiver.response(light.to) } else { 0.0 };
+            rays.active[lane] = g[lane] > 0.0;
+            rays.origin.set(lane, at);
+            rays.direction.set(lane, light.to);
+            rays.t_end[lane] = light.t_end;
+            rays.arriving[lane] = light.element;
+            rays.arriving_part[lane] = light.part;
+        }
+        let blocked = if job.tested { world.blocked(&rays) } else { [false; LANES] };
+        for lane in 0..lanes {
+            take((start + lane) % streams.len(), rays.origin.get(lane), g[lane], !blocked[lane]);
+        }
+    }
+}
+
+/// One connection to a source without extent, from a point: exact but for what stands in the way. Returns g V and the rays traced.
+pub(super) fn connection(scene: &Scene, world: &World, receiver: &Receiver<'_>, source: &Source, tested: bool) -> (f64, u64) {
+    let g = at_point(scene, receiver.acceptance, &receiver.pose, receiver.pose.at, source).value;
+    if !tested || g <= 0.0 {
+        return (g, 0);
+    }
+    let light = Lights::new(scene, [(source, 0, 1.0)]).sample(receiver.pose.at, [0.5, 0.5]);
+    let mut rays = Rays::none();
+    rays.active[0] = true;
+    rays.origin.set(0, receiver.pose.at);
+    rays.direction.set(0, light.to);
+    rays.t_end[0] = light.t_end;
+    rays.leaving[0] = receiver.resting_on;
+    rays.leaving_part[0] = receiver.resting_part;
+    (if world.blocked(&rays)[0] { 0.0 } else { g }, 1)
+}
+

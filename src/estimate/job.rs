@@ -1,0 +1,182 @@
+//! What is sampled: a job in a pose adds up geometric sums for each replicate, and can be continued at any time.
+
+use super::direct::{self, SourceJob};
+use super::paths::{PathScene, trace};
+use super::receiver::Receiver;
+use super::sky;
+use super::{Counters, EstimateError, REPLICATES, Sampled};
+use crate::geometry::world::World;
+use crate::math::random::Stream;
+use crate::plan::spectral::SpectralPlan;
+use crate::scene::Scene;
+
+/// Confidence 95 %: if N independent trials all had the same outcome, the other one has a probability below 3/N.
+const RULE_OF_THREE: f64 = 3.0;
+
+/// What is sampled for an instrument.
+pub(super) enum Job<'a> {
+    /// Direct light of one source.
+    Source(SourceJob<'a>),
+    /// Direct light of the environment; the source's index.
+    Sky { source: usize },
+    /// Reflected light of all sources.
+    Paths { scene: PathScene<'a>, spectral: &'a SpectralPlan, accepted_sr: f64 },
+}
+
+/// How a job goes in one pose.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Progress {
+    /// Points a replicate so far.
+    pub(super) points: u32,
+    /// `REPLICATES` × width sums.
+    pub(super) sums: Vec<f64>,
+    /// Connections that were made, and how many were clear.
+    pub(super) connections: u64,
+    pub(super) clear: u64,
+    /// Sum of what all connections would have brought, had they been clear.
+    pub(super) potential: f64,
+    /// Share of the light that a pilot run found clear.
+    pub(super) share_clear: f64,
+}
+
+/// What a piece of work brought.
+pub(super) struct Piece {
+    pub(super) sums: Vec<f64>,
+    pub(super) connections: u64,
+    pub(super) clear: u64,
+    pub(super) potential: f64,
+    pub(super) counters: Counters,
+}
+
+impl Job<'_> {
+    /// Sums that a replicate adds up.
+    pub(super) fn width(&self) -> usize {
+        match self {
+            Job::Source(_) | Job::Sky { .. } => 1,
+            Job::Paths { scene, .. } => scene.width(),
+        }
+    }
+
+    /// Relative time of a sample: a path against a connection.
+    pub(super) fn cost(&self) -> f64 {
+        match self {
+            Job::Source(_) | Job::Sky { .. } => 1.0,
+            Job::Paths { .. } => 5.0,
+        }
+    }
+
+    /// Its own branch of the random numbers.
+    pub(super) fn tag(&self) -> [u64; 2] {
+        match self {
+            Job::Source(job) => [1, job.source as u64],
+            Job::Sky { source } => [2, *source as u64],
+            Job::Paths { .. } => [3, 0],
+        }
+    }
+
+    /// A first look at what is clear, with numbers of its own, so that the estimate stays unbiased.
+    pub(super) fn pilot(&self, world: &World, receiver: &Receiver<'_>, stream: Stream) -> (f64, Counters) {
+        match self {
+            Job::Source(job) => direct::pilot(job, world, receiver, stream),
+            Job::Sky { .. } => sky::pilot(world, receiver, stream),
+            Job::Paths { .. } => (0.0, Counters::default()),
+        }
+    }
+
+    /// The points `first .. first + count` of every replicate.
+    pub(super) fn sample(
+        &self,
+        scene: &Scene,
+        world: &World,
+        receiver: &Receiver<'_>,
+        stream: Stream,
+        (first, count): (u32, u32),
+        share_clear: f64,
+    ) -> Result<Piece, EstimateError> {
+        match self {
+            Job::Source(job) => Ok(direct::sample(scene, job, world, receiver, stream, (first, count), share_clear)),
+            Job::Sky { .. } => Ok(sky::sample(world, receiver, stream, (first, count), share_clear)),
+            Job::Paths { scene, .. } => {
+                let out = trace(scene, receiver, stream, first, count);
+                if out.endless {
+                    return Err(EstimateError::Endless { instrument: String::new() });
+                }
+                let samples = u64::from(count) * REPLICATES as u64;
+                Ok(Piece {
+                    sums: out.sums,
+                    connections: 0,
+                    clear: 0,
+                    potential: out.potential,
+                    counters: Counters { rays: out.rays, samples, escaped_paths: out.escaped, ..Counters::default() },
+                })
+            }
+        }
+    }
+
+    /// What a channel makes of it. `direct_weights[source]` is the integral of density and responsivity, zero where left out.
+    pub(super) fn seen_by(&self, progress: &Progress, channel: usize, direct_weight: &dyn Fn(usize) -> f64, label: &str) -> Sampled {
+        let samples = u64::from(progress.points) * REPLICATES as u64;
+        let mut replicates = [0.0; REPLICATES];
+        if progress.points == 0 {
+            return Sampled { label: label.to_owned(), replicates, samples, missed: None, spectral_residual: 0.0 };
+        }
+        let n = f64::from(progress.points);
+        let width = self.width();
+        let (scale, spectral_residual) = match self {
+            Job::Source(SourceJob { source, .. }) | Job::Sky { source } => {
+                let weight = direct_weight(*source);
+                for (value, sum) in replicates.iter_mut().zip(&progress.sums) {
+                    *value = sum / n * weight;
+                }
+                (weight, 0.0)
+            }
+            Job::Paths { scene, spectral, .. } => {
+                let weights = &spectral.weights[channel];
+                for (value, sums) in replicates.iter_mut().zip(progress.sums.chunks_exact(width)) {
+                    for (group, weight) in weights.iter().enumerate() {
+                        // Divided first: a sum of many paths times a large radiance stays in range.
+                        *value += scene.group(sums, group).iter().zip(weight).map(|(s, w)| s / n * w).sum::<f64>();
+                    }
+                }
+                (weights.iter().flatten().sum(), spectral.residual)
+            }
+        };
+        let missed = self.missed(progress).map(|(bound, why)| (bound * scale, why)).filter(|(bound, _)| *bound > 0.0);
+        Sampled { label: label.to_owned(), replicates, samples, missed, spectral_residual }
+    }
+
+    /// What all samples may have missed, per unit of density.
+    fn missed(&self, progress: &Progress) -> Option<(f64, String)> {
+        let samples = f64::from(progress.points) * REPLICATES as f64;
+        match self {
+            Job::Source(SourceJob { tested: false, .. }) => None,
+            Job::Source(_) | Job::Sky { .. } => {
+                let n = progress.connections as f64;
+                if progress.connections == 0 {
+                    return match self {
+                        Job::Source(job) => (job.largest > 0.0)
+                            .then(|| (RULE_OF_THREE / samples * job.largest, format!("no way to the source in {samples} samples"))),
+                        _ => None,
+                    };
+                }
+                let bound = RULE_OF_THREE / n * progress.potential / samples;
+                if progress.clear == 0 {
+                    Some((bound, format!("no clear connection in {n}")))
+                } else if progress.clear == progress.connections {
+                    Some((bound, format!("no blocked connection in {n}")))
+                } else {
+                    None
+                }
+            }
+            Job::Paths { scene, accepted_sr, .. } => {
+                if progress.sums.iter().any(|s| *s != 0.0) {
+                    return None;
+                }
+                // As if every path had found the brightest reflecting surface, or what the hidden lights would have given.
+                let brightest = scene.survival.iter().copied().fold(0.0, f64::max) * accepted_sr;
+                let bound = RULE_OF_THREE / samples * brightest.max(progress.potential / samples);
+                Some((bound, format!("no path out of {samples} found light")))
+            }
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Direct light of an environment that something may hide.
+//!
+//! ```text
+//! E = ∫ L R cosθ V dω = L ⟨ W V ⟩        W = R π sin²α, directions with density cosθ/(π sin²α)
+//! E = L ⟨ β W₀ + W (V − β) ⟩             W₀ = ∫ R cosθ dω, β the share that a pilot run found clear
+//! ```
+
+use std::f64::consts::PI;
+
+use super::job::Piece;
+use super::receiver::Receiver;
+use super::{Counters, REPLICATES};
+use crate::geometry::rays::{LANES, Rays};
+use crate::geometry::world::World;
+use crate::math::frame::world_from_local;
+use crate::math::random::Stream;
+use crate::math::sample::sample_cosine_cone;
+
+/// Directions of the pilot run.
+const PILOT: u32 = 64;
+
+pub(super) fn pilot(world: &World, receiver: &Receiver<'_>, stream: Stream) -> (f64, Counters) {
+    let (mut all, mut clear) = (0.0, 0.0);
+    each_direction(world, receiver, &[stream], (0, PILOT), |_, w, visible| {
+        all += w;
+        clear += if visible { w } else { 0.0 };
+    });
+    let share = if all > 0.0 { clear / all } else { 1.0 };
+    (share, Counters { rays: u64::from(PILOT), samples: u64::from(PILOT), ..Counters::default() })
+}
+
+pub(super) fn sample(world: &World, receiver: &Receiver<'_>, stream: Stream, (first, count): (u32, u32), beta: f64) -> Piece {
+    let streams: [Stream; REPLICATES] = std::array::from_fn(|r| stream.child(r as u64));
+    let samples = u64::from(count) * REPLICATES as u64;
+    let mut piece = Piece {
+        sums: vec![0.0; REPLICATES],
+        connections: 0,
+        clear: 0,
+        potential: 0.0,
+        counters: Counters { samples, rays: samples, ..Counters::default() },
+    };
+    let known = receiver.acceptance.projected_solid_angle_sr();
+    each_direction(world, receiver, &streams, (first, count), |replicate, w, visible| {
+        piece.sums[replicate] += beta * known + w * (f64::from(visible) - beta);
+        if w > 0.0 {
+            piece.connections += 1;
+            piece.clear += u64::from(visible);
+            piece.potential += w;
+        }
+    });
+    piece
+}
+
+fn each_direction(
+    world: &World,
+    receiver: &Receiver<'_>,
+    streams: &[Stream],
+    (first, count): (u32, u32),
+    mut take: impl FnMut(usize, f64, bool),
+) {
+    let items = count as usize * streams.len();
+    let mut rays = Rays::none();
+    rays.leaving = [receiver.resting_on; LANES];
+    rays.leaving_part = [receiver.resting_part; LANES];
+    let full = PI * receiver.sine_limit * receiver.sine_limit;
+    for start in (0..items).step_by(LANES) {
+        let lanes = LANES.min(items - start);
+        rays.active = [false; LANES];
+        for lane in 0..lanes {
+            let item = start + lane;
+            let u = streams[item % streams.len()].four(first + (item / streams.len()) as u32, 0);
+            let direction = world_from_local(receiver.pose.normal, sample_cosine_cone([u[0], u[1]], receiver.sine_limit));
+            rays.active[lane] = true;
+            rays.origin.set(lane, receiver.point([u[2], u[3]]));
+            rays.direction.set(lane, direction);
+        }
+        let blocked = world.blocked(&rays);
+        for lane in 0..lanes {
+            let w = full * receiver.response(rays.direction.get(lane));
+            take((start + lane) % streams.len(), w, !blocked[lane]);
+        }
+    }
+}

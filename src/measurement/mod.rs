@@ -1,0 +1,20 @@
+//! From estimates to readings: value, unit, uncertainty with its budget, and where it came from.
+//!
+//! ```text
+//! reading = indication_per_irradiance · (Σ exact + Σ means of replicates),   U = k u_c,   k = t₀.₉₇₅(ν_eff)
+//! ```
+//!
+//! | row of the budget | type | from |
+//! |---|---|---|
+//! | a sampled contribution | A | the spread of its 16 replicates, 15 degrees of freedom |
+//! | a shadow or a gap that all samples may have missed | B | one-sided bound, 95 % |
+//! | wavelengths between the nodes | B | residual of the spectral quadrature |
+//! | quadrature over aperture or response | B | its own error estimate |
+//! | double-precision arithmetic | B | within ± 1e-12 of the value |
+//! | what a rule left out | B | its bound |
+
+mod provenance;
+mod reading;
+
+pub use provenance::Provenance;
+pub use reading::{Measurement, Reading, measure};

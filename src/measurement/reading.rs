@@ -1,0 +1,184 @@
+//! Readings of all instruments of a scene.
+
+use super::Provenance;
+use crate::estimate::{ChannelEstimate, Counters, EstimateError, PoseEstimate, Stop, Watch, estimate};
+use crate::math::DVec3;
+use crate::metrology::{Budget, BudgetRow, Expanded, Replicates};
+use crate::plan::{Bound, Plan};
+use crate::quantity::Measurand;
+use crate::scene::{Instrument, Layout, Scene};
+
+/// Relative half-width within which double-precision arithmetic keeps a formula; the formulas are tested far below it.
+const ARITHMETIC: f64 = 1e-12;
+
+/// What an instrument indicates in one pose and channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// Name of the instrument.
+    pub instrument: String,
+    /// How its poses are arranged.
+    pub layout: Layout,
+    /// Which pose.
+    pub index: usize,
+    /// Centre of the aperture, m.
+    pub at: DVec3,
+    /// Name of the channel.
+    pub channel: String,
+    /// What is read, with its unit.
+    pub measurand: Measurand,
+    /// The indication, in that unit.
+    pub value: f64,
+    /// Its uncertainty, by cause.
+    pub budget: Budget,
+    /// Coverage factor and expanded uncertainty at 95 %.
+    pub expanded: Expanded,
+    /// Samples over all jobs and replicates; zero where formulas served.
+    pub samples: u64,
+    /// Seconds of the run that went into this pose.
+    pub seconds: f64,
+    /// Whether the target that was asked for is met.
+    pub target_met: bool,
+    /// What a reader should know, such as why a reading is zero.
+    pub notes: Vec<String>,
+}
+
+impl Reading {
+    /// u_c, in the unit of the value.
+    #[must_use]
+    pub fn standard_uncertainty(&self) -> f64 {
+        self.budget.combined_standard_uncertainty()
+    }
+}
+
+/// All readings of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurement {
+    /// Title of the scene.
+    pub scene: String,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Instrument by instrument, pose by pose, channel by channel.
+    pub readings: Vec<Reading>,
+    /// What was really done.
+    pub counters: Counters,
+    /// Where it came from.
+    pub provenance: Provenance,
+    /// Seconds from start to end.
+    pub wall_seconds: f64,
+}
+
+/// Reads every instrument of a scene according to a plan.
+///
+/// # Errors
+/// When light is never absorbed, so that a reading is not finite.
+pub fn measure(scene: &Scene, plan: &Plan, stop: &Stop, seed: u64, watch: &Watch<'_>) -> Result<Measurement, EstimateError> {
+    let start = (watch.now)();
+    let estimates = estimate(scene, plan, stop, seed, watch)?;
+    let mut readings = Vec::new();
+    for (i, (instrument, poses)) in scene.instruments.iter().zip(&estimates.poses).enumerate() {
+        let left_out: Vec<LeftOut> = (0..instrument.sensor.channels.len()).map(|c| LeftOut::of(plan, i, c)).collect();
+        for (index, pose) in poses.iter().enumerate() {
+            for (c, channel) in pose.channels.iter().enumerate() {
+                readings.push(read(instrument, index, c, pose, channel, &left_out[c]));
+            }
+        }
+    }
+    Ok(Measurement {
+        scene: scene.title.clone(),
+        seed,
+        readings,
+        counters: estimates.counters,
+        provenance: Provenance::of(scene, plan),
+        wall_seconds: (watch.now)() - start,
+    })
+}
+
+/// What the plan left out of a channel.
+struct LeftOut {
+    bounds: Vec<(&'static str, f64)>,
+    reasons: Vec<String>,
+}
+
+impl LeftOut {
+    fn of(plan: &Plan, instrument: usize, channel: usize) -> LeftOut {
+        let mut found = LeftOut { bounds: Vec::new(), reasons: Vec::new() };
+        for o in plan.omitted.iter().filter(|o| o.id.instrument() == instrument && o.id.channel() == channel) {
+            if let Bound::AtMost(most) = o.bound {
+                match found.bounds.iter_mut().find(|(rule, _)| *rule == o.rule) {
+                    Some((_, sum)) => *sum += most,
+                    None => found.bounds.push((o.rule, most)),
+                }
+            }
+            if found.reasons.len() < 4 && !found.reasons.iter().any(|r| *r == o.reason) {
+                found.reasons.push(o.reason.to_string());
+            }
+        }
+        found
+    }
+}
+
+fn read(instrument: &Instrument, index: usize, c: usize, pose: &PoseEstimate, estimate: &ChannelEstimate, left_out: &LeftOut) -> Reading {
+    let sensor = &instrument.sensor;
+    let channel = &sensor.channels[c];
+    // A validated sensor has an area where its measurand needs one.
+    let scale = channel.indication_per_irradiance(&sensor.aperture, &sensor.acceptance).unwrap_or(f64::NAN);
+    let mut value = scale * estimate.exact.value;
+    let mut budget = Budget::new();
+    let mut samples = 0;
+    for sampled in &estimate.sampled {
+        samples += sampled.samples;
+        if let Some(found) = Replicates::evaluate(&sampled.replicates.map(|r| scale * r)) {
+            value += found.mean;
+            budget.push(BudgetRow::type_a(sampled.label.clone(), found.standard_uncertainty, found.degrees_of_freedom()));
+            if sampled.spectral_residual > 0.0 {
+                budget.push(BudgetRow::rectangular("wavelengths between the nodes", sampled.spectral_residual * found.mean.abs()));
+            }
+        }
+        if let Some((bound, why)) = &sampled.missed {
+            budget.push(BudgetRow::one_sided(format!("{}: {why}", sampled.label), scale * bound));
+        }
+    }
+    if estimate.exact.terms > 0 {
+        if estimate.exact.quadrature_error > 0.0 {
+            budget.push(BudgetRow::rectangular("quadrature", scale * estimate.exact.quadrature_error));
+        }
+        budget.push(BudgetRow::rectangular("double-precision arithmetic", ARITHMETIC * (scale * estimate.exact.value).abs()));
+    }
+    for &(rule, bound) in &left_out.bounds {
+        budget.push(BudgetRow::one_sided(format!("left out: {rule}"), bound));
+    }
+    let expanded = budget.expanded().unwrap_or(Expanded {
+        coverage_probability: crate::metrology::budget::DEFAULT_COVERAGE_PROBABILITY,
+        coverage_factor: f64::INFINITY,
+        expanded_uncertainty: f64::INFINITY,
+        degrees_of_freedom: 0.0,
+    });
+    let mut notes = Vec::new();
+    if value == 0.0 {
+        let why = match (left_out.reasons.is_empty(), budget.combined_standard_uncertainty() > 0.0) {
+            (false, false) => left_out.reasons.join("; "),
+            (_, true) => "no light was found; the uncertainty is the upper bound of what may have been missed".to_owned(),
+            (true, false) if estimate.exact.terms + estimate.sampled.len() == 0 => "the scene has no source".to_owned(),
+            (true, false) => "no source shows the sensor an emitting side above its horizon".to_owned(),
+        };
+        notes.push(format!("reads zero: {why}"));
+    }
+    if !pose.target_met {
+        notes.push("the target was not met within the samples or the time allowed".to_owned());
+    }
+    Reading {
+        instrument: instrument.name.clone(),
+        layout: instrument.layout,
+        index,
+        at: instrument.poses[index].at,
+        channel: channel.name.clone(),
+        measurand: channel.reads.clone(),
+        value,
+        budget,
+        expanded,
+        samples,
+        seconds: pose.seconds,
+        target_met: pose.target_met,
+        notes,
+    }
+}

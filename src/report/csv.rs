@@ -1,0 +1,60 @@
+//! A measurement as CSV: a header row, then a row a reading.
+
+use crate::measurement::Measurement;
+use crate::report::json::grid_index;
+
+/// The columns.
+const COLUMNS: [&str; 17] = [
+    "instrument",
+    "index",
+    "column",
+    "row",
+    "x_m",
+    "y_m",
+    "z_m",
+    "channel",
+    "quantity",
+    "unit",
+    "value",
+    "standard_uncertainty",
+    "degrees_of_freedom",
+    "coverage_factor",
+    "expanded_uncertainty",
+    "samples",
+    "target_met",
+];
+
+/// The measurement as CSV text.
+#[must_use]
+pub fn to_csv(measurement: &Measurement) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut rows: Vec<Vec<String>> = vec![COLUMNS.map(str::to_owned).to_vec()];
+    rows.extend(measurement.readings.iter().map(|r| {
+        let place = grid_index(r);
+        let part = |k: usize| place.map_or(String::new(), |p| p[k].to_string());
+        vec![
+            r.instrument.clone(),
+            r.index.to_string(),
+            part(0),
+            part(1),
+            r.at.x.to_string(),
+            r.at.y.to_string(),
+            r.at.z.to_string(),
+            r.channel.clone(),
+            r.measurand.name().to_owned(),
+            r.measurand.unit().to_owned(),
+            r.value.to_string(),
+            r.standard_uncertainty().to_string(),
+            r.expanded.degrees_of_freedom.to_string(),
+            r.expanded.coverage_factor.to_string(),
+            r.expanded.expanded_uncertainty.to_string(),
+            r.samples.to_string(),
+            r.target_met.to_string(),
+        ]
+    }));
+    for row in rows {
+        // A vector takes whatever is written to it.
+        let _ = writer.write_record(&row);
+    }
+    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+}
