@@ -11,6 +11,7 @@
 //!
 //! Lines and columns count from 1; columns count characters.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
 
@@ -79,7 +80,7 @@ impl Diagnostic {
         problem
     }
 
-    /// A problem at a column of a line of a file that is not a document; what is marked ends at the next comma or blank.
+    /// A problem at a column of a line of a file that is not a document; what is marked ends at the next comma, semicolon or blank.
     #[must_use]
     pub fn of_column(file: &str, line: usize, column: usize, text: &str, message: impl Into<String>, help: impl Into<String>) -> Self {
         let mut problem = Self::of_line(file, line, text, message, Some(help.into()).filter(|h| !h.is_empty()));
@@ -106,6 +107,14 @@ impl Diagnostic {
             excerpt: Some(shortened(place.text, place.column - 1)),
         }
     }
+}
+
+/// Some lines of a file by number, without their ends.
+pub(super) fn lines_of(bytes: &[u8], numbers: impl Iterator<Item = usize>) -> BTreeMap<usize, &[u8]> {
+    let wanted: BTreeSet<usize> = numbers.collect();
+    let last = wanted.last().copied().unwrap_or(0);
+    let lines = bytes.split(|&b| b == b'\n').take(last).enumerate().map(|(i, line)| (i + 1, line.strip_suffix(b"\r").unwrap_or(line)));
+    lines.filter(|(number, _)| wanted.contains(number)).collect()
 }
 
 /// The part of a line about a character, and how many characters were cut off before it; control characters become blanks.

@@ -13,6 +13,8 @@ pub const LONGEST_DOCUMENT_BYTES: u64 = 16 << 20;
 pub const LONGEST_CURVE_BYTES: u64 = 64 << 20;
 /// Longest mesh that is read, bytes.
 pub const LONGEST_MESH_BYTES: u64 = 2 << 30;
+/// Bytes that a scene and all that it mentions may have together; a file that is read twice counts twice.
+pub const MOST_BYTES: u64 = 4 << 30;
 
 /// Why a file could not be read.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,10 +6,10 @@
 //!
 //! | file | what it reads |
 //! |---|---|
-//! | `document` | text → tree of values with places |
+//! | `document`, `syntax` | text → tree of values with places |
 //! | `decode` | values → fields, numbers, vectors, names |
 //! | `files`, `reading` | the door to files, the root, what has been read already |
-//! | `placement`, `shape_reader`, `mesh_reader` | where things are, and what shape they have |
+//! | `placement`, `shape_reader`, `mesh_reader`, `mesh_file` | where things are, and what shape they have |
 //! | `spectrum_reader`, `surface_reader`, `strength` | spectra, factors, surfaces, how strong a source is |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `directional_table` | sensor files |
@@ -25,6 +25,7 @@ pub mod document;
 pub mod files;
 pub mod instrument;
 mod instrument_reader;
+pub mod mesh_file;
 mod mesh_reader;
 mod nearest;
 mod object_reader;
@@ -37,6 +38,7 @@ mod source_reader;
 mod spectrum_reader;
 mod strength;
 mod surface_reader;
+mod syntax;
 #[cfg(test)]
 mod tests;
 

@@ -46,7 +46,7 @@ pub(super) fn nearest<'a>(found: &str, allowed: impl IntoIterator<Item = &'a str
 }
 
 /// `did you mean …? allowed: …`
-pub(super) fn suggestion<'a>(found: &str, allowed: &[&'a str]) -> String {
+pub(super) fn suggestion(found: &str, allowed: &[&str]) -> String {
     let list = allowed.join(", ");
     match nearest(found, allowed.iter().copied()) {
         Some(name) => format!("did you mean `{name}`? allowed: {list}"),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::decode::Value;
 use super::diagnostic::{Diagnostic, Problems};
 use super::document::Document;
-use super::files::{FileProblem, Files, LONGEST_DOCUMENT_BYTES, hashed, resolved};
+use super::files::{FileProblem, Files, LONGEST_DOCUMENT_BYTES, MOST_BYTES, hashed, resolved};
 use super::nearest::nearest;
 use crate::geometry::mesh::Mesh;
 use crate::sensor::Sensor;
@@ -16,6 +16,7 @@ use crate::spectrum::Table;
 pub(super) struct Reading<'f> {
     files: &'f dyn Files,
     root: String,
+    bytes_left: u64,
     /// Problems of all files so far.
     pub(super) problems: Problems,
     /// Hash of everything that was read, file by file in the order of reading.
@@ -31,7 +32,7 @@ pub(super) struct Reading<'f> {
 impl<'f> Reading<'f> {
     /// Nothing read yet. `root` is the folder that no name may leave.
     pub(super) fn new(files: &'f dyn Files, scene: &str, root: String) -> Self {
-        Self { files, root, problems: Problems::new(scene), hash: 0, curves: BTreeMap::new(), sensors: BTreeMap::new(), meshes: BTreeMap::new() }
+        Self { files, root, bytes_left: MOST_BYTES, problems: Problems::new(scene), hash: 0, curves: BTreeMap::new(), sensors: BTreeMap::new(), meshes: BTreeMap::new() }
     }
 
     /// The path of the file that a value names.
@@ -49,8 +50,9 @@ impl<'f> Reading<'f> {
 
     /// The bytes of a file that a value mentions; `what` says what is expected in it.
     pub(super) fn bytes(&mut self, mention: &Value, path: &str, what: &str, most_bytes: u64) -> Option<Vec<u8>> {
-        match self.files.read(path, most_bytes) {
+        match self.files.read(path, most_bytes.min(self.bytes_left)) {
             Ok(bytes) => {
+                self.bytes_left = self.bytes_left.saturating_sub(bytes.len() as u64);
                 self.hash = hashed(hashed(self.hash, path.as_bytes()), &bytes);
                 Some(bytes)
             }
@@ -64,6 +66,9 @@ impl<'f> Reading<'f> {
                             None => "names are relative to the file that mentions them".into(),
                         };
                         (format!("there is no {what} `{path}`"), help)
+                    }
+                    FileProblem::TooLong { bytes } if bytes <= most_bytes => {
+                        (format!("with the {what} `{path}` the files of the scene are too long together"), format!("at most {MOST_BYTES} bytes ({} MiB) are read in all", MOST_BYTES >> 20))
                     }
                     FileProblem::TooLong { bytes } => {
                         (format!("the {what} `{path}` has {bytes} bytes"), format!("at most {most_bytes} bytes ({} MiB) are read", most_bytes >> 20))

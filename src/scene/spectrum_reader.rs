@@ -19,7 +19,7 @@
 //! | `Product([f, g])`, `Sum([f, g])`, `Scaled(0.5, f)` | of other factors |
 
 use super::decode::Value;
-use super::diagnostic::Diagnostic;
+use super::diagnostic::{Diagnostic, lines_of};
 use super::document::Kind;
 use super::files::LONGEST_CURVE_BYTES;
 use super::nearest::nearest;
@@ -277,9 +277,9 @@ fn parse_curve(path: &str, bytes: &[u8], reading: &mut Reading) -> Option<Table>
     let mut text = match parse_bytes(bytes, &TextRules::default()) {
         Ok(text) => text,
         Err(problems) => {
+            let lines = lines_of(bytes, problems.iter().map(|problem| problem.line));
             for problem in problems {
-                let line = bytes.split(|&b| b == b'\n').nth(problem.line.saturating_sub(1)).unwrap_or_default();
-                let line = String::from_utf8_lossy(line).trim_end_matches('\r').to_string();
+                let line = String::from_utf8_lossy(lines.get(&problem.line).map_or(&[][..], |line| line));
                 reading.problems.add(Diagnostic::of_column(path, problem.line, problem.column, &line, problem.message, problem.help));
             }
             return None;

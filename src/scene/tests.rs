@@ -1,5 +1,7 @@
 //! Scenes that are read, against closed forms.
 
+mod syntax;
+
 use std::f64::consts::PI;
 
 use super::*;

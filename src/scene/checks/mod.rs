@@ -3,6 +3,8 @@
 mod coincident_emitters;
 mod perfect_enclosure;
 mod sensor_on_emitter;
+#[cfg(test)]
+mod tests;
 
 use super::Scene;
 use super::diagnostic::Problems;
