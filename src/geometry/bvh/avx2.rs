@@ -71,11 +71,9 @@ mod x86_64 {
         #[inline(always)]
         fn prefetch(self, bvh: &Bvh, child: u32) {
             if child & LEAF == 0 {
-                if let Some(node) = bvh.nodes.get(child as usize) {
-                    touch::<4>((&raw const *node).cast());
-                }
-            } else if let Some(packet) = bvh.packets.get((child & !LEAF) as usize) {
-                touch::<5>((&raw const *packet).cast());
+                touch::<4>(bvh.nodes.as_ptr().wrapping_add(child as usize).cast());
+            } else {
+                touch::<5>(bvh.packets.as_ptr().wrapping_add((child & !LEAF) as usize).cast());
             }
         }
     }

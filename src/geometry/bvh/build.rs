@@ -81,7 +81,7 @@ pub(super) fn build(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Tree {
         let mut inside = bounds.drain(..).flat_map(|bounds| members(bounds, &heaps)).collect::<Vec<_>>();
         builder.fill_balanced(0, 1, &mut inside);
     } else {
-        let params = BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES as u32, ..BvhBuildParams::medium_build() };
+        let params = BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES as u32, collapse_traversal_cost: 8.0, ..BvhBuildParams::medium_build() };
         let binary = build_bvh2(&bounds, params, &mut Duration::default());
         builder.fill_from_binary(&binary, &bounds, &heaps);
     }
