@@ -63,9 +63,9 @@ mod x86_64 {
         }
 
         #[inline(always)]
-        fn triangles(self, packet: &Packet, ray: &Prepared, t_best: f32) -> Option<Crossing> {
+        fn triangles(self, packet: &Packet, ray: &Prepared, t_best: f32, crossing: &mut Crossing) -> u32 {
             // SAFETY: (1), self is the permission.
-            unsafe { triangles(packet, ray, t_best) }
+            unsafe { triangles(packet, ray, t_best, crossing) }
         }
 
         #[inline(always)]
@@ -121,7 +121,7 @@ mod x86_64 {
 
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
-    fn triangles(packet: &Packet, ray: &Prepared, t_best: f32) -> Option<Crossing> {
+    fn triangles(packet: &Packet, ray: &Prepared, t_best: f32, crossing: &mut Crossing) -> u32 {
         let [kx, ky, kz] = ray.axis;
         let [sx, sy, sz] = ray.shear.map(|s| _mm256_set1_ps(s));
         let origin = [kx, ky, kz].map(|k| _mm256_set1_ps(ray.origin[k]));
@@ -151,7 +151,7 @@ mod x86_64 {
         );
         let inside = _mm256_or_ps(front, back);
         if _mm256_movemask_ps(inside) == 0 {
-            return None;
+            return 0;
         }
         let determinant = _mm256_add_ps(_mm256_add_ps(u, v), w);
         let height = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(u, az), _mm256_mul_ps(v, bz)), _mm256_mul_ps(w, cz));
@@ -166,15 +166,13 @@ mod x86_64 {
         );
         let hit = _mm256_andnot_ps(_mm256_castsi256_ps(skipped), all(inside, after, before));
         let lanes = _mm256_movemask_ps(hit) as u32;
-        if lanes == 0 {
-            return None;
+        if lanes != 0 {
+            store(&mut crossing.t, t);
+            store(&mut crossing.edge[0], u);
+            store(&mut crossing.edge[1], v);
+            store(&mut crossing.edge[2], w);
         }
-        let mut crossing = Crossing { lanes, t: [0.0; 8], edge: [[0.0; 8]; 3] };
-        store(&mut crossing.t, t);
-        store(&mut crossing.edge[0], u);
-        store(&mut crossing.edge[1], v);
-        store(&mut crossing.edge[2], w);
-        Some(crossing)
+        lanes
     }
 }
 

@@ -87,19 +87,22 @@ impl Prepared {
     }
 }
 
-/// What a packet of triangles answers: a bit for each lane that is hit, with distance and edge functions of all lanes.
+/// Distance and edge functions of the triangles of a packet.
 pub(super) struct Crossing {
-    pub(super) lanes: u32,
     pub(super) t: [f32; 8],
     pub(super) edge: [[f32; 8]; 3],
+}
+
+impl Crossing {
+    const ZERO: Crossing = Crossing { t: [0.0; 8], edge: [[0.0; 8]; 3] };
 }
 
 /// Arithmetic on eight lanes.
 pub(super) trait Kernel: Copy {
     /// Bits of the boxes that the ray enters before `t_best`; their entry distances go to `entry`.
     fn boxes(self, node: &Node, ray: &Prepared, t_best: f32, entry: &mut [f32; 8]) -> u32;
-    /// The triangles that the ray crosses between its `t_min` and `t_best`; none but the lanes matter if no bit is set.
-    fn triangles(self, packet: &Packet, ray: &Prepared, t_best: f32) -> Option<Crossing>;
+    /// Bits of the triangles that the ray crosses between its `t_min` and `t_best`; if there are any, `crossing` is filled.
+    fn triangles(self, packet: &Packet, ray: &Prepared, t_best: f32, crossing: &mut Crossing) -> u32;
     /// Says that a child will be needed soon.
     fn prefetch(self, bvh: &Bvh, child: u32);
 }
@@ -108,24 +111,20 @@ pub(super) trait Kernel: Copy {
 #[inline(always)]
 pub(super) fn closest<K: Kernel>(kernel: K, bvh: &Bvh, ray: &Prepared) -> Option<Hit> {
     let mut best: Option<Hit> = None;
-    let mut t_best = ray.t_max;
-    let visit = |packet: &Packet, limit: &mut f32| {
-        let Some(crossing) = kernel.triangles(packet, ray, t_best) else {
-            return false;
-        };
-        let mut lanes = crossing.lanes;
+    let mut crossing = Crossing::ZERO;
+    let visit = |packet: &Packet, t_best: &mut f32| {
+        let mut lanes = kernel.triangles(packet, ray, *t_best, &mut crossing);
         while lanes != 0 {
             let lane = (lanes.trailing_zeros() & 7) as usize;
             lanes &= lanes - 1;
             let t = crossing.t[lane];
-            if t < t_best {
-                t_best = t;
+            if t < *t_best {
+                *t_best = t;
                 let edge = [crossing.edge[0][lane], crossing.edge[1][lane], crossing.edge[2][lane]];
                 let sum = edge[0] + edge[1] + edge[2];
                 best = Some(Hit { t, triangle: packet.triangle[lane], barycentric: edge.map(|e| e / sum) });
             }
         }
-        *limit = t_best;
         false
     };
     search::<K, true>(kernel, bvh, ray, visit);
@@ -135,7 +134,8 @@ pub(super) fn closest<K: Kernel>(kernel: K, bvh: &Bvh, ray: &Prepared) -> Option
 /// Whether there is a hit.
 #[inline(always)]
 pub(super) fn blocked<K: Kernel>(kernel: K, bvh: &Bvh, ray: &Prepared) -> bool {
-    let visit = |packet: &Packet, _: &mut f32| kernel.triangles(packet, ray, ray.t_max).is_some();
+    let mut crossing = Crossing::ZERO;
+    let visit = |packet: &Packet, _: &mut f32| kernel.triangles(packet, ray, ray.t_max, &mut crossing) != 0;
     search::<K, false>(kernel, bvh, ray, visit)
 }
 
@@ -264,7 +264,7 @@ impl Kernel for Portable {
     }
 
     #[inline(always)]
-    fn triangles(self, packet: &Packet, ray: &Prepared, t_best: f32) -> Option<Crossing> {
+    fn triangles(self, packet: &Packet, ray: &Prepared, t_best: f32, crossing: &mut Crossing) -> u32 {
         let [kx, ky, kz] = ray.axis;
         let [sx, sy, sz] = ray.shear;
         let mut sheared = [[[0.0_f32; 8]; 3]; 3];
@@ -277,7 +277,7 @@ impl Kernel for Portable {
             }
         }
         let [a, b, c] = &sheared;
-        let mut crossing = Crossing { lanes: 0, t: [0.0; 8], edge: [[0.0; 8]; 3] };
+        let mut lanes = 0;
         for lane in 0..8 {
             let u = c[0][lane] * b[1][lane] - c[1][lane] * b[0][lane];
             let v = a[0][lane] * c[1][lane] - a[1][lane] * c[0][lane];
@@ -286,13 +286,13 @@ impl Kernel for Portable {
             let determinant = (u + v) + w;
             let t = sz * ((u * a[2][lane] + v * b[2][lane]) + w * c[2][lane]) / determinant;
             let counts = packet.triangle[lane] != ray.skip[0] && packet.triangle[lane] != ray.skip[1];
-            crossing.lanes |= u32::from(inside && t > ray.t_min && t < t_best && counts) << lane;
+            lanes |= u32::from(inside && t > ray.t_min && t < t_best && counts) << lane;
             crossing.t[lane] = t;
             crossing.edge[0][lane] = u;
             crossing.edge[1][lane] = v;
             crossing.edge[2][lane] = w;
         }
-        (crossing.lanes != 0).then_some(crossing)
+        lanes
     }
 
     #[inline(always)]
