@@ -99,6 +99,24 @@ fn files_that_are_too_long_too_deep_or_no_text_get_their_message() {
 }
 
 #[test]
+fn hostile_files_are_answered_with_a_bounded_number_of_problems() {
+    let all_on_one_line = |item: &str| format!("Scene(sources: [{}], instruments: [])", item.repeat(200_000 / item.len()));
+    for item in [
+        "5,",
+        "(x:1,),",
+        "(name:\"a\",shape:Sphere(1),strength:Watts(1),spectrum:\"A\"),",
+        "(name:\"a\",surface:\"b\",shape:Point,at:(0,0,0)),",
+    ] {
+        let problems = read_scene("x.ron", &MemoryFiles::new().with("x.ron", all_on_one_line(item)), None).unwrap_err();
+        assert!((200..=201).contains(&problems.0.len()), "{item} {}", problems.0.len());
+        assert!(problems.to_string().ends_with("read the scene again"));
+    }
+    let long = format!("Scene(sources: [(name: \"{}\", {}: 1)])", "n".repeat(100_000), "k".repeat(100_000));
+    let problems = read_scene("x.ron", &MemoryFiles::new().with("x.ron", long), None).unwrap_err();
+    assert!(problems.to_string().len() < 10_000);
+}
+
+#[test]
 fn a_scene_that_is_missing_or_outside_of_its_root_is_told() {
     let nothing = MemoryFiles::new().with("scenes/bench.ron", "");
     assert!(message("scenes/bnech.ron", &nothing).contains("did you mean `bench.ron`"));
@@ -109,7 +127,16 @@ fn a_scene_that_is_missing_or_outside_of_its_root_is_told() {
 /// Files without a problem; what is done to them must never end in a panic.
 fn valid_files() -> Vec<(String, Vec<u8>)> {
     let read = |name: &str| (name.to_string(), fs::read(folder().join("valid").join(name)).unwrap());
-    ["scenes/room.ron", "sensors/meter.ron", "sensors/lamp.csv", "sensors/directional.csv", "scenes/tetrahedron.obj", "scenes/tetrahedron.ply"].map(read).to_vec()
+    [
+        "scenes/room.ron",
+        "sensors/meter.ron",
+        "sensors/lamp.csv",
+        "sensors/directional.csv",
+        "scenes/tetrahedron.obj",
+        "scenes/tetrahedron.ply",
+    ]
+    .map(read)
+    .to_vec()
 }
 
 fn result_of(files: Vec<(String, Vec<u8>)>) -> Result<(), String> {

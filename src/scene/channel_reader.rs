@@ -20,17 +20,27 @@ use crate::quantity::measurand::Measurand;
 use crate::sensor::{Acceptance, Aperture, Channel};
 use crate::spectrum::{Factor, Outside};
 
-const READS: [&str; 9] = ["Irradiance", "Illuminance", "RadiantFlux", "LuminousFlux", "Radiance", "Luminance", "PhotonIrradiance", "Photocurrent", "Signal"];
+const READS: [&str; 9] =
+    ["Irradiance", "Illuminance", "RadiantFlux", "LuminousFlux", "Radiance", "Luminance", "PhotonIrradiance", "Photocurrent", "Signal"];
 
 /// Reads a channel. The aperture and the acceptance are those of its sensor, if they could be read.
-pub(super) fn read_channel(value: &Value, aperture: Option<Aperture>, acceptance: Option<&Acceptance>, reading: &mut Reading) -> Option<Channel> {
+pub(super) fn read_channel(
+    value: &Value,
+    aperture: Option<Aperture>,
+    acceptance: Option<&Acceptance>,
+    reading: &mut Reading,
+) -> Option<Channel> {
     let fields = value.fields("a channel", &["name", "responsivity", "reads"], &mut reading.problems)?;
     let name = fields.require("name", "\"E_v\"", &mut reading.problems).and_then(|v| v.text(&mut reading.problems));
     let responsivity = fields.require("responsivity", "\"V\"", &mut reading.problems).and_then(|v| {
         let factor = read_factor(&v, Outside::Zero, reading)?;
         let (least, largest) = factor.range_over(0.0, f64::INFINITY);
         if largest <= 0.0 && least >= 0.0 {
-            v.problem(&mut reading.problems, "the responsivity is zero at every wavelength, so nothing can be read", "give a responsivity that is above zero somewhere");
+            v.problem(
+                &mut reading.problems,
+                "the responsivity is zero at every wavelength, so nothing can be read",
+                "give a responsivity that is above zero somewhere",
+            );
             return None;
         }
         Some(factor)
@@ -38,11 +48,21 @@ pub(super) fn read_channel(value: &Value, aperture: Option<Aperture>, acceptance
     let reads = fields.require("reads", "Illuminance", &mut reading.problems)?;
     let quantity = reads.variant("a quantity that a channel can read", &READS, &mut reading.problems)?;
     if matches!(quantity, "RadiantFlux" | "LuminousFlux" | "Photocurrent") && aperture == Some(Aperture::Point) {
-        reads.problem_at(&reads.name_span(), &mut reading.problems, format!("`{quantity}` is collected by an area, but the aperture is a point"), "give the aperture a size, such as `aperture: Disc(radius_mm: 5)`");
+        reads.problem_at(
+            &reads.name_span(),
+            &mut reading.problems,
+            format!("`{quantity}` is collected by an area, but the aperture is a point"),
+            "give the aperture a size, such as `aperture: Disc(radius_mm: 5)`",
+        );
         return None;
     }
     if matches!(quantity, "Radiance" | "Luminance") && acceptance.is_some_and(|a| a.projected_solid_angle_sr() <= 0.0) {
-        reads.problem_at(&reads.name_span(), &mut reading.problems, format!("`{quantity}` needs an acceptance with a solid angle"), "give a half-angle above 0°");
+        reads.problem_at(
+            &reads.name_span(),
+            &mut reading.problems,
+            format!("`{quantity}` needs an acceptance with a solid angle"),
+            "give a half-angle above 0°",
+        );
         return None;
     }
     let luminous = matches!(quantity, "Illuminance" | "LuminousFlux" | "Luminance");
@@ -59,7 +79,8 @@ pub(super) fn read_channel(value: &Value, aperture: Option<Aperture>, acceptance
             let problems = &mut reading.problems;
             let signal = reads.fields("`Signal`", &["unit", "per_watt"], problems)?;
             let unit = signal.require("unit", "\"V\"", problems).and_then(|v| v.text(problems));
-            let per_watt = signal.require("per_watt", "2", problems).and_then(|v| v.number_in("`per_watt`", "above 0", |x| x > 0.0, problems));
+            let per_watt =
+                signal.require("per_watt", "2", problems).and_then(|v| v.number_in("`per_watt`", "above 0", |x| x > 0.0, problems));
             (Measurand::Signal { unit: unit?.into() }, per_watt?)
         }
         ("PhotonIrradiance", _) => {
@@ -102,16 +123,29 @@ fn read_luminous_scale(reads: &Value, responsivity: Option<&Factor>, reading: &m
                 return Some(K_M_LM_W * (true_lm / seen));
             }
             let blind = if seen > 0.0 { "the eye" } else { "this responsivity" };
-            spectrum.problem(&mut reading.problems, format!("a meter cannot be adjusted with a spectrum that {blind} does not see"), "adjust with a spectrum such as \"A\", or give `efficacy_lm_w`");
+            spectrum.problem(
+                &mut reading.problems,
+                format!("a meter cannot be adjusted with a spectrum that {blind} does not see"),
+                "adjust with a spectrum such as \"A\", or give `efficacy_lm_w`",
+            );
             None
         }
         (None, Some(efficacy)) => efficacy.number_in("the efficacy", "above 0 lm/W", |x| x > 0.0, &mut reading.problems),
         (Some(_), Some(_)) => {
-            reads.problem_at(&fields.key_span("efficacy_lm_w"), &mut reading.problems, "both `adjusted_with` and `efficacy_lm_w` are given", "keep one of them: each says what the meter indicates");
+            reads.problem_at(
+                &fields.key_span("efficacy_lm_w"),
+                &mut reading.problems,
+                "both `adjusted_with` and `efficacy_lm_w` are given",
+                "keep one of them: each says what the meter indicates",
+            );
             None
         }
         (None, None) => {
-            reads.problem(&mut reading.problems, format!("`{quantity}()` says nothing about the adjustment"), format!("write `{quantity}`, `{quantity}(adjusted_with: \"A\")` or `{quantity}(efficacy_lm_w: 683)`"));
+            reads.problem(
+                &mut reading.problems,
+                format!("`{quantity}()` says nothing about the adjustment"),
+                format!("write `{quantity}`, `{quantity}(adjusted_with: \"A\")` or `{quantity}(efficacy_lm_w: 683)`"),
+            );
             None
         }
     }

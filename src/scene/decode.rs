@@ -39,6 +39,10 @@ impl<'d> Value<'d> {
 
     /// A problem of a part of this value.
     pub(super) fn problem_at(&self, span: &Range<usize>, problems: &mut Problems, message: impl Into<String>, help: impl Into<String>) {
+        if problems.is_full() {
+            problems.skip();
+            return;
+        }
         let help: String = help.into();
         problems.add(Diagnostic::at(self.document, span, &self.path, message, (!help.is_empty()).then_some(help)));
     }
@@ -78,7 +82,9 @@ impl<'d> Value<'d> {
         }
         let help = match &self.node.kind {
             // A name in quotes where the bare name belongs.
-            Kind::Text(text) if nearest(text, allowed.iter().copied()).is_some() => format!("{}; write it without quotes", suggestion(text, allowed)),
+            Kind::Text(text) if nearest(text, allowed.iter().copied()).is_some() => {
+                format!("{}; write it without quotes", suggestion(text, allowed))
+            }
             _ => suggestion(name, allowed),
         };
         if name.is_empty() {
@@ -116,7 +122,11 @@ impl<'d> Value<'d> {
                     Body::Named(_) => "they are given with keys".to_string(),
                 };
                 let plural = if count == 1 { "value" } else { "values" };
-                self.problem(problems, format!("`{name}` needs {count} {plural} in brackets, without keys; {found}"), format!("write `{form}`"));
+                self.problem(
+                    problems,
+                    format!("`{name}` needs {count} {plural} in brackets, without keys; {found}"),
+                    format!("write `{form}`"),
+                );
                 None
             }
             _ => {
@@ -189,7 +199,11 @@ impl<'d> Value<'d> {
         if point.abs().max_element() <= LARGEST_M {
             return Some(point);
         }
-        self.problem(problems, "the point lies absurdly far away", format!("allowed: coordinates from {:e} m to {LARGEST_M:e} m", -LARGEST_M));
+        self.problem(
+            problems,
+            "the point lies absurdly far away",
+            format!("allowed: coordinates from {:e} m to {LARGEST_M:e} m", -LARGEST_M),
+        );
         None
     }
 
@@ -199,7 +213,11 @@ impl<'d> Value<'d> {
         if let Some(unit) = normalised(v) {
             return Some(unit);
         }
-        self.problem(problems, "the vector is zero, so it has no direction", "write the direction, of any length but zero, such as `(0, 0, 1)`");
+        self.problem(
+            problems,
+            "the vector is zero, so it has no direction",
+            "write the direction, of any length but zero, such as `(0, 0, 1)`",
+        );
         None
     }
 
@@ -245,11 +263,19 @@ impl<'d> Value<'d> {
                 let help = suggestion(&field.name, allowed);
                 self.problem_at(&field.name_span, problems, format!("unknown key `{}` in {what}", field.name), help);
             } else if fields[..i].iter().any(|earlier| earlier.name == field.name) {
-                self.problem_at(&field.name_span, problems, format!("the key `{}` is given twice in {what}", field.name), "keep one of them");
+                self.problem_at(
+                    &field.name_span,
+                    problems,
+                    format!("the key `{}` is given twice in {what}", field.name),
+                    "keep one of them",
+                );
             }
         }
         // A key that was probably meant is not called missing as well.
-        let meant = fields.iter().filter(|field| !allowed.contains(&field.name.as_str())).filter_map(|field| nearest(&field.name, allowed.iter().copied()));
+        let meant = fields
+            .iter()
+            .filter(|field| !allowed.contains(&field.name.as_str()))
+            .filter_map(|field| nearest(&field.name, allowed.iter().copied()));
         let meant = meant.map(str::to_string).collect();
         Some(Fields { owner: self.clone(), what: what.into(), fields, meant })
     }
@@ -297,7 +323,12 @@ impl<'d> Fields<'d> {
     pub(super) fn refuse(&self, keys: &[&str], why: &str, problems: &mut Problems) {
         for key in keys {
             if self.get(key).is_some() {
-                self.owner.problem_at(&self.key_span(key), problems, format!("the key `{key}` has no meaning here: {why}"), format!("leave `{key}` out"));
+                self.owner.problem_at(
+                    &self.key_span(key),
+                    problems,
+                    format!("the key `{key}` has no meaning here: {why}"),
+                    format!("leave `{key}` out"),
+                );
             }
         }
     }

@@ -101,11 +101,20 @@ impl Diagnostic {
             line: place.line,
             column: place.column,
             end_column: place.end_column,
-            path: path.into(),
-            message: message.into(),
-            help,
+            path: bounded(path.into()),
+            message: bounded(message.into()),
+            help: help.map(bounded),
             excerpt: Some(shortened(place.text, place.column - 1)),
         }
+    }
+}
+
+/// A text that is not too long to be read, whatever the names in it.
+fn bounded(text: String) -> String {
+    const MOST_CHARACTERS: usize = 600;
+    match text.char_indices().nth(MOST_CHARACTERS) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
     }
 }
 
@@ -166,33 +175,49 @@ impl fmt::Display for Diagnostics {
     }
 }
 
-/// Problems of one file that are reported at most; the others are counted.
-const MOST_PER_FILE: usize = 101;
+/// Problems that are told at most; the others are counted. What a hostile file can make this program do is bounded by it.
+const MOST: usize = 200;
 
 /// A list of problems that grows while files are read.
 #[derive(Debug, Default)]
 pub(super) struct Problems {
     list: Vec<Diagnostic>,
+    more: usize,
     first_file: String,
 }
 
 impl Problems {
     /// No problems yet; those of `first_file` will be told first.
     pub(super) fn new(first_file: &str) -> Self {
-        Self { list: Vec::new(), first_file: first_file.into() }
+        Self { list: Vec::new(), more: 0, first_file: first_file.into() }
     }
 
     /// Adds a problem.
     pub(super) fn add(&mut self, problem: Diagnostic) {
-        self.list.push(problem);
+        if self.is_full() {
+            self.skip();
+        } else {
+            self.list.push(problem);
+        }
+    }
+
+    /// Counts a problem without its words.
+    pub(super) fn skip(&mut self) {
+        self.more += 1;
+    }
+
+    /// Whether further problems are only counted, so that their words need not be found.
+    pub(super) fn is_full(&self) -> bool {
+        self.list.len() >= MOST
     }
 
     /// How many there are so far.
     pub(super) fn count(&self) -> usize {
-        self.list.len()
+        self.list.len() + self.more
     }
 
-    /// All of them: file by file, the first file first and the others in the order in which the files were met, from the first line to the last.
+    /// All of them: file by file, the first file first and the others in the order in which they were met, from the first line
+    /// to the last.
     pub(super) fn finish(mut self) -> Diagnostics {
         let mut files: Vec<String> = vec![self.first_file.clone()];
         for problem in &self.list {
@@ -203,14 +228,10 @@ impl Problems {
         let rank = |file: &str| files.iter().position(|f| f == file);
         self.list.sort_by_key(|p| (rank(&p.file), p.line, p.column));
         self.list.dedup();
-        let mut kept = Vec::new();
-        for file in &files {
-            let (some, rest): (Vec<_>, Vec<_>) = self.list.iter().filter(|p| &p.file == file).enumerate().partition(|(i, _)| *i < MOST_PER_FILE);
-            kept.extend(some.into_iter().map(|(_, p)| p.clone()));
-            if !rest.is_empty() {
-                kept.push(Diagnostic::of_file(file, format!("{} more problems in this file", rest.len()), None));
-            }
+        if self.more > 0 {
+            let message = format!("{} more problems are not told", self.more);
+            self.list.push(Diagnostic::of_file(&self.first_file, message, Some("mend the first ones and read the scene again".into())));
         }
-        Diagnostics(kept)
+        Diagnostics(self.list)
     }
 }

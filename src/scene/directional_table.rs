@@ -41,7 +41,11 @@ impl Table<'_> {
                 None
             }
             Err(_) => {
-                self.problem(row, format!("`{cell}` is not a number"), "write numbers with a decimal point and commas between them: `5,0.998`");
+                self.problem(
+                    row,
+                    format!("`{cell}` is not a number"),
+                    "write numbers with a decimal point and commas between them: `5,0.998`",
+                );
                 None
             }
         }
@@ -65,12 +69,20 @@ fn parse(file: &str, text: &str, problems: &mut Problems) -> Option<DirectionalR
         .map(|(i, line)| Row { number: i + 1, text: line, cells: line.split(',').map(str::trim).collect() })
         .filter(|row| !row.text.trim().is_empty() && !row.text.trim_start().starts_with('#'));
     let Some(header) = rows.next() else {
-        problems.add(Diagnostic::of_file(file, "the directional table has no rows", Some("the first row is `theta_deg,R` or `theta_deg,0,90,180,270`, then one row for each θ".into())));
+        problems.add(Diagnostic::of_file(
+            file,
+            "the directional table has no rows",
+            Some("the first row is `theta_deg,R` or `theta_deg,0,90,180,270`, then one row for each θ".into()),
+        ));
         return None;
     };
     let mut table = Table { file, problems };
     if header.cells[0] != "theta_deg" || header.cells.len() < 2 {
-        table.problem(&header, "the first row of a directional table names its columns", "write `theta_deg,R`, or `theta_deg,0,90,180,270` with φ in degrees");
+        table.problem(
+            &header,
+            "the first row of a directional table names its columns",
+            "write `theta_deg,R`, or `theta_deg,0,90,180,270` with φ in degrees",
+        );
         return None;
     }
     let mut phi_deg = if header.cells.len() == 2 && header.cells[1].parse::<f64>().is_err() {
@@ -80,13 +92,21 @@ fn parse(file: &str, text: &str, problems: &mut Problems) -> Option<DirectionalR
         cells.into_iter().collect::<Option<Vec<f64>>>()?
     };
     if phi_deg[0] != 0.0 || phi_deg.windows(2).any(|w| w[0] >= w[1]) || phi_deg[phi_deg.len() - 1] > 360.0 {
-        table.problem(&header, "the angles φ do not run from 0 upwards to at most 360", "write them rising, such as `theta_deg,0,90,180,270`");
+        table.problem(
+            &header,
+            "the angles φ do not run from 0 upwards to at most 360",
+            "write them rising, such as `theta_deg,0,90,180,270`",
+        );
         return None;
     }
     let (mut theta_deg, mut values) = (Vec::new(), vec![Vec::new(); phi_deg.len()]);
     for row in rows {
         if row.cells.len() != header.cells.len() {
-            table.problem(&row, format!("the row has {} of {} columns", row.cells.len(), header.cells.len()), "give θ and one value for each column of the first row");
+            table.problem(
+                &row,
+                format!("the row has {} of {} columns", row.cells.len(), header.cells.len()),
+                "give θ and one value for each column of the first row",
+            );
             continue;
         }
         let numbers: Vec<Option<f64>> = row.cells.iter().map(|cell| table.number(&row, cell)).collect();
@@ -94,7 +114,9 @@ fn parse(file: &str, text: &str, problems: &mut Problems) -> Option<DirectionalR
         let theta = numbers[0];
         match theta_deg.last() {
             None if theta != 0.0 => table.problem(&row, format!("the first θ is {theta}°"), "begin at 0°, the direction of the normal"),
-            Some(&last) if theta <= last => table.problem(&row, format!("θ = {theta}° follows {last}°"), "write the rows with rising θ, each angle once"),
+            Some(&last) if theta <= last => {
+                table.problem(&row, format!("θ = {theta}° follows {last}°"), "write the rows with rising θ, each angle once")
+            }
             _ if theta > 90.0 => table.problem(&row, format!("θ is {theta}°"), "allowed: 0° to 90°; light from behind does not enter"),
             _ => {}
         }
@@ -110,7 +132,11 @@ fn parse(file: &str, text: &str, problems: &mut Problems) -> Option<DirectionalR
         let last = values.pop();
         phi_deg.pop();
         if last.as_ref() != values.first() {
-            table.problem(&header, "the column of φ = 360° differs from that of φ = 0°, which is the same direction", "make them equal, or leave 360 out");
+            table.problem(
+                &header,
+                "the column of φ = 360° differs from that of φ = 0°, which is the same direction",
+                "make them equal, or leave 360 out",
+            );
         }
     }
     if problems.count() > before {

@@ -117,4 +117,3 @@ impl Document {
         Place { line, column, end_column: column + self.text[start..end].chars().count(), text }
     }
 }
-

@@ -25,7 +25,8 @@ const KEYS: [&str; 7] = ["name", "sensor", "at", "facing", "up", "list", "grid"]
 /// Reads an instrument; `poses_left` is how many poses the scene may still have.
 pub(super) fn read_instrument(value: &Value, name: Option<&str>, poses_left: &mut usize, reading: &mut Reading) -> Option<Instrument> {
     let fields = value.fields("an instrument", &KEYS, &mut reading.problems)?;
-    let sensor = fields.require("sensor", "\"../sensors/ideal-lux-meter.ron\"", &mut reading.problems).and_then(|v| read_sensor(&v, reading));
+    let sensor =
+        fields.require("sensor", "\"../sensors/ideal-lux-meter.ron\"", &mut reading.problems).and_then(|v| read_sensor(&v, reading));
     let arranged = match (fields.get("list"), fields.get("grid")) {
         (Some(_), Some(grid)) => {
             grid.problem_at(&fields.key_span("grid"), &mut reading.problems, "both `list` and `grid` are given", "keep one of them");
@@ -46,7 +47,11 @@ pub(super) fn read_instrument(value: &Value, name: Option<&str>, poses_left: &mu
     };
     let (name, sensor, (layout, poses)) = (name?, sensor?, arranged?);
     if poses.len() > *poses_left {
-        value.problem(&mut reading.problems, format!("the scene has more than {MOST_POSES} poses"), "use fewer instruments or coarser grids");
+        value.problem(
+            &mut reading.problems,
+            format!("the scene has more than {MOST_POSES} poses"),
+            "use fewer instruments or coarser grids",
+        );
         return None;
     }
     *poses_left -= poses.len();
@@ -101,16 +106,24 @@ fn read_grid(grid: &Value, owner: &Fields, poses_left: usize, reading: &mut Read
     for (edge, count, axis) in [(u, columns, "first"), (v, rows, "second")] {
         if (edge == DVec3::ZERO) != (count == 1) {
             let (message, help) = if count == 1 {
-                (format!("the grid has an extent along its {axis} axis but one point"), "give at least 2 points, or let the corners agree in that coordinate")
+                (
+                    format!("the grid has an extent along its {axis} axis but one point"),
+                    "give at least 2 points, or let the corners agree in that coordinate",
+                )
             } else {
-                (format!("the grid has {count} points along its {axis} axis but no extent there"), "let `from` and `to` differ along that axis, or give 1 point")
+                (
+                    format!("the grid has {count} points along its {axis} axis but no extent there"),
+                    "let `from` and `to` differ along that axis, or give 1 point",
+                )
             };
             points.problem(&mut reading.problems, message, help);
             return None;
         }
     }
     let share = |i: usize, n: usize| if n == 1 { 0.0 } else { i as f64 / (n - 1) as f64 };
-    let poses = (0..rows).flat_map(|row| (0..columns).map(move |column| from + u * share(column, columns) + v * share(row, rows))).map(|at| pose(at, frame));
+    let poses = (0..rows)
+        .flat_map(|row| (0..columns).map(move |column| from + u * share(column, columns) + v * share(row, rows)))
+        .map(|at| pose(at, frame));
     Some((Layout::Grid { columns, rows }, poses.collect()))
 }
 
@@ -135,18 +148,31 @@ fn read_counts(points: &Value, poses_left: usize, reading: &mut Reading) -> Opti
     {
         let mut counts = items.iter().enumerate().map(|(i, node)| {
             let whole = |x: f64| x >= 1.0 && x.fract() == 0.0 && x <= MOST_POSES as f64;
-            let count = points.child(node, &format!("[{i}]")).number_in("the number of points", &format!("whole numbers from 1 to {MOST_POSES}"), whole, &mut reading.problems);
+            let count = points.child(node, &format!("[{i}]")).number_in(
+                "the number of points",
+                &format!("whole numbers from 1 to {MOST_POSES}"),
+                whole,
+                &mut reading.problems,
+            );
             count.map(|x| x as usize)
         });
         let (columns, rows) = (counts.next()?, counts.next()?);
         let (columns, rows) = (columns?, rows?);
         if columns.saturating_mul(rows) > poses_left {
-            points.problem(&mut reading.problems, format!("the grid has {} points", columns.saturating_mul(rows)), format!("a scene may have {MOST_POSES} poses in all"));
+            points.problem(
+                &mut reading.problems,
+                format!("the grid has {} points", columns.saturating_mul(rows)),
+                format!("a scene may have {MOST_POSES} poses in all"),
+            );
             return None;
         }
         return Some((columns, rows));
     }
     let found = points.described();
-    points.problem(&mut reading.problems, format!("the points of a grid are two numbers, not {found}"), "write `(columns, rows)`, such as `(10, 8)`");
+    points.problem(
+        &mut reading.problems,
+        format!("the points of a grid are two numbers, not {found}"),
+        "write `(columns, rows)`, such as `(10, 8)`",
+    );
     None
 }

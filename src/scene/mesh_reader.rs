@@ -23,7 +23,11 @@ pub(super) fn read_mesh(name: &Value, place: Placement, scale: f64, reading: &mu
     } else if lower.ends_with(".ply") {
         parse_ply
     } else {
-        name.problem(&mut reading.problems, format!("`{file}` is not the name of a mesh file"), "meshes are read from files that end in .obj or .ply");
+        name.problem(
+            &mut reading.problems,
+            format!("`{file}` is not the name of a mesh file"),
+            "meshes are read from files that end in .obj or .ply",
+        );
         return None;
     };
     let numbers = [place.at.x, place.at.y, place.at.z, place.x.x, place.x.y, place.x.z, place.y.x, place.y.y, place.y.z, scale];
@@ -58,7 +62,11 @@ fn build(name: &Value, path: &str, data: MeshData, place: Placement, scale: f64,
             if extent_m >= SMALLEST_M {
                 return Some(mesh);
             }
-            name.problem(&mut reading.problems, format!("the mesh `{path}` is {extent_m:.3e} m large"), format!("allowed: {SMALLEST_M:e} m and above; is the `scale` right?"));
+            name.problem(
+                &mut reading.problems,
+                format!("the mesh `{path}` is {extent_m:.3e} m large"),
+                format!("allowed: {SMALLEST_M:e} m and above; is the `scale` right?"),
+            );
             None
         }
         Err(error) => {

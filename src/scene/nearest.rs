@@ -61,7 +61,9 @@ mod tests {
     #[test]
     fn slips_of_the_finger_are_recognised() {
         let allowed = ["half_angle_deg", "radius_m", "Lambertian", "Candela"];
-        for (found, meant) in [("halfangle", "half_angle_deg"), ("half_angle_rad", "half_angle_deg"), ("lambertain", "Lambertian"), ("candella", "Candela")] {
+        for (found, meant) in
+            [("halfangle", "half_angle_deg"), ("half_angle_rad", "half_angle_deg"), ("lambertain", "Lambertian"), ("candella", "Candela")]
+        {
             assert_eq!(nearest(found, allowed), Some(meant), "{found}");
         }
         assert_eq!(nearest("wavelength", allowed), None);

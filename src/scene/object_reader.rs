@@ -20,7 +20,11 @@ pub(super) fn read_object(value: &Value, name: Option<&str>, surfaces: &Surfaces
     };
     let shapes = fields.require("shape", "Sphere(0.5)", &mut reading.problems).and_then(|v| {
         if ["Point", "Directional", "Environment"].contains(&v.name()) {
-            v.problem(&mut reading.problems, format!("`{}` is a source, not something to stand in a scene", v.name()), "move it to `sources: [ … ]`");
+            v.problem(
+                &mut reading.problems,
+                format!("`{}` is a source, not something to stand in a scene", v.name()),
+                "move it to `sources: [ … ]`",
+            );
             return None;
         }
         read_shape(&v, &fields, reading)

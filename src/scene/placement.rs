@@ -109,7 +109,11 @@ pub(super) fn read_facing(fields: &Fields, at: DVec3, problems: &mut Problems) -
     if frame.is_none()
         && let Some(up) = fields.get("up")
     {
-        up.problem(problems, "`up` is parallel to `facing`, so it does not say which way the height points", "choose `up` across `facing`, or leave it out");
+        up.problem(
+            problems,
+            "`up` is parallel to `facing`, so it does not say which way the height points",
+            "choose `up` across `facing`, or leave it out",
+        );
     }
     frame
 }

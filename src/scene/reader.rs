@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::Scene;
 use super::checks;
 use super::decode::Value;
 use super::diagnostic::{Diagnostic, Diagnostics};
@@ -12,7 +13,6 @@ use super::object_reader::read_object;
 use super::reading::Reading;
 use super::source_reader::read_source;
 use super::surface_reader::Surfaces;
-use super::Scene;
 
 const KEYS: [&str; 5] = ["title", "surfaces", "objects", "sources", "instruments"];
 
@@ -60,14 +60,21 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
     let root = Value::root(document);
     if root.name() != "Scene" {
         let found = root.described();
-        root.problem_at(&root.name_span(), &mut reading.problems, format!("a scene file holds `Scene(…)`, not {found}"), "write `Scene(sources: […], instruments: […])`");
+        root.problem_at(
+            &root.name_span(),
+            &mut reading.problems,
+            format!("a scene file holds `Scene(…)`, not {found}"),
+            "write `Scene(sources: […], instruments: […])`",
+        );
         return None;
     }
     let fields = root.fields("`Scene`", &KEYS, &mut reading.problems)?;
     let file = document.file.rsplit('/').next().unwrap_or_default();
     let title = fields.get("title").map_or(Some(file), |title| title.text(&mut reading.problems));
     let surfaces = Surfaces::read(fields.get("surfaces").as_ref(), reading);
-    let items = |key: &str, reading: &mut Reading| fields.get(key).and_then(|v| v.list(&format!("`{key}`"), &mut reading.problems)).unwrap_or_default();
+    let items = |key: &str, reading: &mut Reading| {
+        fields.get(key).and_then(|v| v.list(&format!("`{key}`"), &mut reading.problems)).unwrap_or_default()
+    };
     let (objects, sources, instruments) = (items("objects", reading), items("sources", reading), items("instruments", reading));
 
     let mut scene = Scene { title: title.unwrap_or_default().into(), ..Scene::default() };
@@ -101,7 +108,11 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
         match fields.get("instruments") {
             None => drop(fields.require("instruments", example.trim_start_matches("instruments: "), &mut reading.problems)),
             Some(value) if matches!(value.node.kind, Kind::List(_)) => {
-                value.problem(&mut reading.problems, "the scene has no instrument, so there is nothing to read", format!("write `{example}`"));
+                value.problem(
+                    &mut reading.problems,
+                    "the scene has no instrument, so there is nothing to read",
+                    format!("write `{example}`"),
+                );
             }
             Some(_) => {}
         }
@@ -114,7 +125,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
 
 /// Names that have been given, with what they were given to.
 #[derive(Default)]
-struct Names(BTreeMap<String, (&'static str, usize)>);
+struct Names(BTreeMap<String, (&'static str, std::ops::Range<usize>)>);
 
 impl Names {
     /// The name of an object, source or instrument, which must be new.
@@ -132,12 +143,16 @@ impl Names {
             value.problem(&mut reading.problems, "the name is empty", "write a name to be found again in reports");
             return None;
         }
-        if let Some(&(earlier, line)) = self.0.get(name) {
-            let both = if earlier == what { format!("two {what}s are called \"{name}\"") } else { format!("an {earlier} and a {what} are both called \"{name}\"") };
+        if let Some((earlier, span)) = self.0.get(name).filter(|_| !reading.problems.is_full()) {
+            let line = item.document.place(span).line;
+            let both = if *earlier == what {
+                format!("two {what}s are called \"{name}\"")
+            } else {
+                format!("an {earlier} and a {what} are both called \"{name}\"")
+            };
             value.problem(&mut reading.problems, both, format!("the first is in line {line}; give each its own name"));
         }
-        let line = item.document.place(&field.value.span).line;
-        self.0.entry(name.into()).or_insert((what, line));
+        self.0.entry(name.into()).or_insert((what, field.value.span.clone()));
         Some(name)
     }
 }

@@ -32,7 +32,16 @@ pub(super) struct Reading<'f> {
 impl<'f> Reading<'f> {
     /// Nothing read yet. `root` is the folder that no name may leave.
     pub(super) fn new(files: &'f dyn Files, scene: &str, root: String) -> Self {
-        Self { files, root, bytes_left: MOST_BYTES, problems: Problems::new(scene), hash: 0, curves: BTreeMap::new(), sensors: BTreeMap::new(), meshes: BTreeMap::new() }
+        Self {
+            files,
+            root,
+            bytes_left: MOST_BYTES,
+            problems: Problems::new(scene),
+            hash: 0,
+            curves: BTreeMap::new(),
+            sensors: BTreeMap::new(),
+            meshes: BTreeMap::new(),
+        }
     }
 
     /// The path of the file that a value names.
@@ -41,7 +50,9 @@ impl<'f> Reading<'f> {
             Ok(path) => Some(path),
             Err(why) => {
                 let root = if self.root.is_empty() { "the current folder".to_string() } else { format!("`{}`", self.root) };
-                let help = format!("names are relative to the file that mentions them and stay within {root}; move the file there, or choose a root that holds both");
+                let help = format!(
+                    "names are relative to the file that mentions them and stay within {root}; move the file there, or choose a root that holds both"
+                );
                 mention.problem(&mut self.problems, why, help);
                 None
             }
@@ -57,7 +68,7 @@ impl<'f> Reading<'f> {
                 Some(bytes)
             }
             Err(problem) => {
-                let neighbours = self.files.neighbours(path);
+                let neighbours = if self.problems.is_full() { Vec::new() } else { self.files.neighbours(path) };
                 let file = path.rsplit('/').next().unwrap_or(path);
                 let (message, help) = match problem {
                     FileProblem::Missing => {
@@ -67,12 +78,14 @@ impl<'f> Reading<'f> {
                         };
                         (format!("there is no {what} `{path}`"), help)
                     }
-                    FileProblem::TooLong { bytes } if bytes <= most_bytes => {
-                        (format!("with the {what} `{path}` the files of the scene are too long together"), format!("at most {MOST_BYTES} bytes ({} MiB) are read in all", MOST_BYTES >> 20))
-                    }
-                    FileProblem::TooLong { bytes } => {
-                        (format!("the {what} `{path}` has {bytes} bytes"), format!("at most {most_bytes} bytes ({} MiB) are read", most_bytes >> 20))
-                    }
+                    FileProblem::TooLong { bytes } if bytes <= most_bytes => (
+                        format!("with the {what} `{path}` the files of the scene are too long together"),
+                        format!("at most {MOST_BYTES} bytes ({} MiB) are read in all", MOST_BYTES >> 20),
+                    ),
+                    FileProblem::TooLong { bytes } => (
+                        format!("the {what} `{path}` has {bytes} bytes"),
+                        format!("at most {most_bytes} bytes ({} MiB) are read", most_bytes >> 20),
+                    ),
                     FileProblem::Unreadable(why) => (format!("the {what} `{path}` cannot be read: {why}"), String::new()),
                 };
                 mention.problem(&mut self.problems, message, help);
@@ -97,7 +110,14 @@ impl<'f> Reading<'f> {
                 let column = 1 + String::from_utf8_lossy(&good[start..]).chars().count();
                 let text = String::from_utf8_lossy(&error.as_bytes()[start..]);
                 let text = text.lines().next().unwrap_or_default();
-                self.problems.add(Diagnostic::of_column(path, line, column, text, "the file holds bytes that are not UTF-8 text", "save the file as UTF-8 text"));
+                self.problems.add(Diagnostic::of_column(
+                    path,
+                    line,
+                    column,
+                    text,
+                    "the file holds bytes that are not UTF-8 text",
+                    "save the file as UTF-8 text",
+                ));
                 None
             }
         }
@@ -119,11 +139,14 @@ impl<'f> Reading<'f> {
             }
             Err(problem) => {
                 let help = match problem {
-                    FileProblem::TooLong { .. } => Some(format!("at most {LONGEST_DOCUMENT_BYTES} bytes ({} MiB) are read", LONGEST_DOCUMENT_BYTES >> 20)),
+                    FileProblem::TooLong { .. } => {
+                        Some(format!("at most {LONGEST_DOCUMENT_BYTES} bytes ({} MiB) are read", LONGEST_DOCUMENT_BYTES >> 20))
+                    }
                     FileProblem::Missing => {
                         let neighbours = self.files.neighbours(path);
                         let file = path.rsplit('/').next().unwrap_or(path);
-                        nearest(file, neighbours.iter().map(String::as_str)).map(|name| format!("did you mean `{name}` in the same folder?"))
+                        nearest(file, neighbours.iter().map(String::as_str))
+                            .map(|name| format!("did you mean `{name}` in the same folder?"))
                     }
                     FileProblem::Unreadable(_) => None,
                 };

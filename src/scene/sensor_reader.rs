@@ -31,7 +31,10 @@ pub(super) fn read_sensor(value: &Value, reading: &mut Reading) -> Option<Arc<Se
         if let Some(known) = reading.sensors.get(&path) {
             return known.clone();
         }
-        let sensor = reading.document(value, &path, "sensor file").and_then(|document| read_sensor_body(&Value::root(&document), &path, reading)).map(Arc::new);
+        let sensor = reading
+            .document(value, &path, "sensor file")
+            .and_then(|document| read_sensor_body(&Value::root(&document), &path, reading))
+            .map(Arc::new);
         reading.sensors.insert(path, sensor.clone());
         return sensor;
     }
@@ -39,7 +42,11 @@ pub(super) fn read_sensor(value: &Value, reading: &mut Reading) -> Option<Arc<Se
         return read_sensor_body(value, "sensor", reading).map(Arc::new);
     }
     let found = value.described();
-    value.problem(&mut reading.problems, format!("a sensor is expected, not {found}"), "write the name of a sensor file in quotes, or `Sensor(aperture: …, acceptance: …, channels: […])`");
+    value.problem(
+        &mut reading.problems,
+        format!("a sensor is expected, not {found}"),
+        "write the name of a sensor file in quotes, or `Sensor(aperture: …, acceptance: …, channels: […])`",
+    );
     None
 }
 
@@ -47,7 +54,12 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
     let problems = &mut reading.problems;
     if value.name() != "Sensor" {
         let found = value.described();
-        value.problem_at(&value.name_span(), problems, format!("a sensor file holds `Sensor(…)`, not {found}"), "write `Sensor(aperture: …, acceptance: …, channels: […])`");
+        value.problem_at(
+            &value.name_span(),
+            problems,
+            format!("a sensor file holds `Sensor(…)`, not {found}"),
+            "write `Sensor(aperture: …, acceptance: …, channels: […])`",
+        );
         return None;
     }
     let before = problems.count();
@@ -62,13 +74,22 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
     for item in items.iter().flatten() {
         let Some(channel) = read_channel(item, aperture, acceptance.as_ref(), reading) else { continue };
         if names.contains(&channel.name) {
-            item.problem_at(&item.title_span(), &mut reading.problems, format!("two channels are called \"{}\"", channel.name), "give each its own name");
+            item.problem_at(
+                &item.title_span(),
+                &mut reading.problems,
+                format!("two channels are called \"{}\"", channel.name),
+                "give each its own name",
+            );
         }
         names.push(channel.name.clone());
         list.push(channel);
     }
     if let (Some(channels), Some([])) = (&channels, items.as_deref()) {
-        channels.problem(&mut reading.problems, "the sensor has no channel, so there is nothing to read", "add `(name: \"E_v\", responsivity: \"V\", reads: Illuminance)`");
+        channels.problem(
+            &mut reading.problems,
+            "the sensor has no channel, so there is nothing to read",
+            "add `(name: \"E_v\", responsivity: \"V\", reads: Illuminance)`",
+        );
     }
     if reading.problems.count() > before {
         return None;
@@ -117,7 +138,11 @@ fn read_acceptance(value: &Value, reading: &mut Reading) -> Option<Acceptance> {
             let angle = value.fields("`Cone`", &["half_angle_deg"], problems)?.require("half_angle_deg", "0.5", problems)?;
             let half_angle_deg = angle.number(problems)?;
             if half_angle_deg == 0.0 {
-                angle.problem(problems, "an acceptance of zero collects nothing", "give a half-angle above 0°, such as `half_angle_deg: 0.5`");
+                angle.problem(
+                    problems,
+                    "an acceptance of zero collects nothing",
+                    "give a half-angle above 0°, such as `half_angle_deg: 0.5`",
+                );
                 return None;
             }
             if !(half_angle_deg > 0.0 && half_angle_deg <= 90.0) {

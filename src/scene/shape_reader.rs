@@ -102,7 +102,11 @@ fn read_size(shape: &Value, reading: &mut Reading) -> Option<DVec3> {
     }
     let axis = (0..3).find(|&i| !(SMALLEST_M..=LARGEST_M).contains(&size_m[i])).unwrap_or(0);
     let name = (["x", "y", "z"][axis], size_m[axis]);
-    size.problem(problems, format!("the size of the box along {} is {:e} m", name.0, name.1), format!("allowed: {SMALLEST_M:e} m to {LARGEST_M:e} m"));
+    size.problem(
+        problems,
+        format!("the size of the box along {} is {:e} m", name.0, name.1),
+        format!("allowed: {SMALLEST_M:e} m to {LARGEST_M:e} m"),
+    );
     None
 }
 
@@ -124,7 +128,11 @@ fn read_quad(shape: &Value, reading: &mut Reading) -> Option<Vec<Shape>> {
     let cosine = normalised(u)?.dot(normalised(v)?);
     if cosine.abs() > PERPENDICULAR {
         let angle_deg = normalised(u)?.cross(normalised(v)?).length().atan2(cosine).to_degrees();
-        shape.problem(problems, format!("the edges `u` and `v` meet at {angle_deg:.6}°, but a `Quad` is a rectangle"), "make them perpendicular, or use a mesh");
+        shape.problem(
+            problems,
+            format!("the edges `u` and `v` meet at {angle_deg:.6}°, but a `Quad` is a rectangle"),
+            "make them perpendicular, or use a mesh",
+        );
         return None;
     }
     Some(vec![Shape::Rectangle(Rectangle { centre: corner + 0.5 * (u + v), half_u: 0.5 * u, half_v: 0.5 * v })])
@@ -141,7 +149,11 @@ fn box_sides(place: Placement, size_m: DVec3) -> Vec<Shape> {
             // u × v is the axis, v × u its opposite.
             let (first, second) = if outwards > 0.0 { (u, v) } else { (v, u) };
             let centre = half + axis * (outwards * half[i]);
-            sides.push(Shape::Rectangle(Rectangle { centre: place.point(centre), half_u: place.vector(first * half), half_v: place.vector(second * half) }));
+            sides.push(Shape::Rectangle(Rectangle {
+                centre: place.point(centre),
+                half_u: place.vector(first * half),
+                half_v: place.vector(second * half),
+            }));
         }
     }
     sides

@@ -21,13 +21,21 @@ const KEYS: [&str; 11] = ["name", "shape", "strength", "spectrum", "surface", "s
 const POSE_KEYS: [&str; 5] = ["at", "facing", "up", "turned_deg", "scale"];
 
 /// Reads a source. The elements of its shape are added to the scene's elements.
-pub(super) fn read_source(value: &Value, name: Option<&str>, surfaces: &Surfaces, elements: &mut Vec<Element>, reading: &mut Reading) -> Option<Source> {
+pub(super) fn read_source(
+    value: &Value,
+    name: Option<&str>,
+    surfaces: &Surfaces,
+    elements: &mut Vec<Element>,
+    reading: &mut Reading,
+) -> Option<Source> {
     let fields = value.fields("a source", &KEYS, &mut reading.problems)?;
     let spectrum = fields.require("spectrum", "\"A\"", &mut reading.problems).and_then(|v| read_spectrum(&v, reading));
     let strength = fields.require("strength", "Lumens(800)", &mut reading.problems);
     let shape = fields.require("shape", "Point", &mut reading.problems)?;
     let delta = ["Point", "Directional", "Environment"].contains(&shape.name());
-    let density = |emission: Emission, reading: &mut Reading| read_strength(strength.as_ref()?, emission, spectrum.as_ref(), &v_lambda(), &mut reading.problems);
+    let density = |emission: Emission, reading: &mut Reading| {
+        read_strength(strength.as_ref()?, emission, spectrum.as_ref(), &v_lambda(), &mut reading.problems)
+    };
     if delta {
         let emission = match shape.name() {
             "Point" => Emission::Point,

@@ -66,7 +66,8 @@ pub(super) fn read_spectrum(value: &Value, reading: &mut Reading) -> Option<Dens
     match value.name() {
         "BlackBody" => {
             let item = value.positional(1, "BlackBody(2856)", &mut reading.problems)?.into_iter().next()?;
-            let temperature_k = item.number_in("the temperature", "above 0 K, up to 1e9 K", |t| t > 0.0 && t <= 1e9, &mut reading.problems)?;
+            let temperature_k =
+                item.number_in("the temperature", "above 0 K, up to 1e9 K", |t| t > 0.0 && t <= 1e9, &mut reading.problems)?;
             checked(value, Density::black_body(temperature_k), reading)
         }
         "Line" => {
@@ -88,7 +89,11 @@ pub(super) fn read_spectrum(value: &Value, reading: &mut Reading) -> Option<Dens
                 .collect();
             let lines = lines.into_iter().collect::<Option<Vec<Line>>>()?;
             if lines.iter().all(|line| line.power == 0.0) {
-                value.problem(&mut reading.problems, "the spectrum has no line with a power above 0", "write `Lines([(435.8, 1.0)])`: nm and relative power");
+                value.problem(
+                    &mut reading.problems,
+                    "the spectrum has no line with a power above 0",
+                    "write `Lines([(435.8, 1.0)])`: nm and relative power",
+                );
                 return None;
             }
             checked(value, Density::lines_only(&lines), reading)
@@ -123,7 +128,11 @@ fn read_sum(value: &Value, reading: &mut Reading) -> Option<Density> {
             let (weight, density) = (weight?, density?);
             let total = density.total();
             if !(total > 0.0 && total.is_finite()) {
-                pair[1].problem(&mut reading.problems, "this part is zero at every wavelength, so it cannot be weighted", "leave it out, or give another spectrum");
+                pair[1].problem(
+                    &mut reading.problems,
+                    "this part is zero at every wavelength, so it cannot be weighted",
+                    "leave it out, or give another spectrum",
+                );
                 return None;
             }
             checked(part, density.scaled(weight / total), reading)
@@ -142,7 +151,9 @@ fn read_sum(value: &Value, reading: &mut Reading) -> Option<Density> {
 pub(super) fn read_factor(value: &Value, outside: Outside, reading: &mut Reading) -> Option<Factor> {
     match &value.node.kind {
         Kind::Number(_) => return value.number(&mut reading.problems).map(Factor::Constant),
-        Kind::Text(name) if is_file(name) => return read_curve(value, name, reading).map(|table| Factor::Table(table.with_outside(outside))),
+        Kind::Text(name) if is_file(name) => {
+            return read_curve(value, name, reading).map(|table| Factor::Table(table.with_outside(outside)));
+        }
         Kind::Text(name) => {
             let found = library::factor(name).map_err(|error| unknown(value, &error, "factor", reading)).ok()?;
             return Some(match found {
@@ -153,7 +164,14 @@ pub(super) fn read_factor(value: &Value, outside: Outside, reading: &mut Reading
         _ => {}
     }
     if !FACTORS.contains(&value.name()) {
-        refuse(value, "a factor", "0.85 (constant), \"V\" (library), \"oak.csv\" (file)", &FACTORS, library::factor(value.name()).is_ok(), reading);
+        refuse(
+            value,
+            "a factor",
+            "0.85 (constant), \"V\" (library), \"oak.csv\" (file)",
+            &FACTORS,
+            library::factor(value.name()).is_ok(),
+            reading,
+        );
         return None;
     }
     match value.name() {
@@ -163,7 +181,8 @@ pub(super) fn read_factor(value: &Value, outside: Outside, reading: &mut Reading
         }
         "Band" => {
             let fields = value.fields("`Band`", &["from_nm", "to_nm", "value"], &mut reading.problems)?;
-            let mut edge = |key: &str, example: &str| fields.require(key, example, &mut reading.problems).and_then(|v| read_wavelength(&v, reading));
+            let mut edge =
+                |key: &str, example: &str| fields.require(key, example, &mut reading.problems).and_then(|v| read_wavelength(&v, reading));
             let (from_nm, to_nm) = (edge("from_nm", "400"), edge("to_nm", "700"));
             let height = fields.get("value").map_or(Some(1.0), |v| v.number(&mut reading.problems));
             checked(value, Factor::band(from_nm?, to_nm?, height?), reading)
@@ -171,7 +190,8 @@ pub(super) fn read_factor(value: &Value, outside: Outside, reading: &mut Reading
         "Gaussian" => {
             let fields = value.fields("`Gaussian`", &["peak", "centre_nm", "fwhm_nm"], &mut reading.problems)?;
             let peak = fields.get("peak").map_or(Some(1.0), |v| v.number(&mut reading.problems));
-            let mut width = |key: &str, example: &str| fields.require(key, example, &mut reading.problems).and_then(|v| read_wavelength(&v, reading));
+            let mut width =
+                |key: &str, example: &str| fields.require(key, example, &mut reading.problems).and_then(|v| read_wavelength(&v, reading));
             let (centre_nm, fwhm_nm) = (width("centre_nm", "530"), width("fwhm_nm", "30"));
             checked(value, Factor::gaussian(peak?, centre_nm?, sigma_nm(fwhm_nm?)), reading)
         }
@@ -219,7 +239,11 @@ fn read_wavelength(value: &Value, reading: &mut Reading) -> Option<f64> {
     let nm = value.number(&mut reading.problems)?;
     if nm > 0.0 && nm <= LONGEST_NM {
         if nm < 10.0 {
-            value.problem(&mut reading.problems, format!("a wavelength of {nm} nm is an X-ray"), format!("wavelengths are in nm; {nm} µm is written {}", nm * 1000.0));
+            value.problem(
+                &mut reading.problems,
+                format!("a wavelength of {nm} nm is an X-ray"),
+                format!("wavelengths are in nm; {nm} µm is written {}", nm * 1000.0),
+            );
             return None;
         }
         return Some(nm);
@@ -235,7 +259,12 @@ fn read_keyed(value: &Value, keys: &[&str], reading: &mut Reading) -> Option<Vec
         .map(|&key| {
             let found = fields.require(key, "500", &mut reading.problems)?;
             if key == "fwhm_nm" {
-                return found.number_in("the full width at half maximum", "above 0 nm", |x| x > 0.0 && x <= LONGEST_NM, &mut reading.problems);
+                return found.number_in(
+                    "the full width at half maximum",
+                    "above 0 nm",
+                    |x| x > 0.0 && x <= LONGEST_NM,
+                    &mut reading.problems,
+                );
             }
             read_wavelength(&found, reading)
         })
@@ -255,7 +284,11 @@ fn unknown(value: &Value, error: &library::LookupError, what: &str, reading: &mu
             (format!("the library has no {what} called \"{name}\""), format!("nearest: {}; {files}", near.join(", ")))
         }
         other @ library::LookupError::OtherKind { .. } => {
-            let example = if what == "spectrum" { "write a spectrum such as \"A\", \"D65\", \"LED-B3\"" } else { "write a factor such as \"V\", a number, or the name of a curve file" };
+            let example = if what == "spectrum" {
+                "write a spectrum such as \"A\", \"D65\", \"LED-B3\""
+            } else {
+                "write a factor such as \"V\", a number, or the name of a curve file"
+            };
             (other.to_string(), example.into())
         }
     };

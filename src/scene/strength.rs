@@ -59,7 +59,11 @@ pub(super) enum Emission<'s> {
     Directional,
     Environment,
     /// Shapes, and on how many of their sides (1 or 2) they emit; whether they emit inwards only.
-    Area { shapes: &'s [Shape], sides: f64, inwards: bool },
+    Area {
+        shapes: &'s [Shape],
+        sides: f64,
+        inwards: bool,
+    },
 }
 
 impl Emission<'_> {
@@ -96,7 +100,9 @@ impl Emission<'_> {
                 Shape::Sphere(s) if !inwards => Some(1.0 / (PI * s.radius_m * s.radius_m)),
                 _ => None,
             },
-            (Emission::Area { shapes: [shape], inwards, .. }, Given::FluxDensityAt) => on_axis_per_radiance(shape, inwards, at_m).map(|e| 1.0 / e),
+            (Emission::Area { shapes: [shape], inwards, .. }, Given::FluxDensityAt) => {
+                on_axis_per_radiance(shape, inwards, at_m).map(|e| 1.0 / e)
+            }
             _ => None,
         }
     }
@@ -117,7 +123,13 @@ fn on_axis_per_radiance(shape: &Shape, inwards: bool, at_m: f64) -> Option<f64> 
 }
 
 /// Reads a strength and gives the source's density: the spectrum, as strong as that.
-pub(super) fn read_strength(value: &Value, emission: Emission, spectrum: Option<&Density>, v_lambda: &Factor, problems: &mut Problems) -> Option<Density> {
+pub(super) fn read_strength(
+    value: &Value,
+    emission: Emission,
+    spectrum: Option<&Density>,
+    v_lambda: &Factor,
+    problems: &mut Problems,
+) -> Option<Density> {
     let fitting: Vec<&(&str, &str, Given, bool)> = FORMS.iter().filter(|form| emission.per_unit(form.2, 1.0).is_some()).collect();
     let names: Vec<&str> = FORMS.iter().map(|form| form.0).collect();
     if matches!(value.node.kind, Kind::Number(_)) {
@@ -139,14 +151,23 @@ pub(super) fn read_strength(value: &Value, emission: Emission, spectrum: Option<
         } else {
             String::new()
         };
-        value.problem_at(&value.name_span(), problems, format!("`{name}` does not say how strong {} is", emission.name()), format!("{hint}write one of {}", forms.join(", ")));
+        value.problem_at(
+            &value.name_span(),
+            problems,
+            format!("`{name}` does not say how strong {} is", emission.name()),
+            format!("{hint}write one of {}", forms.join(", ")),
+        );
         return None;
     }
     let (amount, at_m) = read_amount(value, name, form, given, problems)?;
     if let (Emission::Area { shapes: [Shape::Sphere(s)], .. }, Given::FluxDensityAt) = (emission, given)
         && at_m <= s.radius_m
     {
-        value.problem(problems, format!("`at_m: {at_m}` lies within the source, a sphere of radius {} m", s.radius_m), "give a distance from the centre that is larger than the radius");
+        value.problem(
+            problems,
+            format!("`at_m: {at_m}` lies within the source, a sphere of radius {} m", s.radius_m),
+            "give a distance from the centre that is larger than the radius",
+        );
         return None;
     }
     let spectrum = spectrum?;
@@ -159,7 +180,10 @@ pub(super) fn read_strength(value: &Value, emission: Emission, spectrum: Option<
     };
     if !(total > 0.0 && total.is_finite()) {
         let (why, help) = if luminous {
-            ("the spectrum has no light that the eye sees (V(λ) is zero beyond 360 nm to 830 nm), so no luminous strength can be reached", "give the strength in watts, W/sr, W/m² or W/(m² sr), or another spectrum")
+            (
+                "the spectrum has no light that the eye sees (V(λ) is zero beyond 360 nm to 830 nm), so no luminous strength can be reached",
+                "give the strength in watts, W/sr, W/m² or W/(m² sr), or another spectrum",
+            )
         } else {
             ("the spectrum is zero at every wavelength", "give another spectrum")
         };
@@ -196,7 +220,9 @@ fn read_amount(value: &Value, name: &str, form: &str, given: Given, problems: &m
                 let found = fields.require(key, "0.5", problems)?;
                 match *key {
                     "at_m" => found.length_m("the distance", 1.0, problems),
-                    "efficiency" => found.number_in("the efficiency", "0 to 1 (40 % is written 0.4)", |x| (0.0..=1.0).contains(&x), problems),
+                    "efficiency" => {
+                        found.number_in("the efficiency", "0 to 1 (40 % is written 0.4)", |x| (0.0..=1.0).contains(&x), problems)
+                    }
                     _ => found.number_in(&format!("`{key}`"), "0 and above", not_negative, problems),
                 }
             })

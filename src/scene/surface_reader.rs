@@ -28,7 +28,11 @@ impl Surfaces {
         let Some(value) = value else { return surfaces };
         let Kind::Map(entries) = &value.node.kind else {
             let found = value.described();
-            value.problem(&mut reading.problems, format!("surfaces are written as a map, not {found}"), "write `{ \"white paint\": Lambertian(0.85) }`");
+            value.problem(
+                &mut reading.problems,
+                format!("surfaces are written as a map, not {found}"),
+                "write `{ \"white paint\": Lambertian(0.85) }`",
+            );
             return surfaces;
         };
         for (key, node) in entries {
@@ -55,7 +59,8 @@ impl Surfaces {
         if let Some(index) = self.by_name.get(name) {
             return *index;
         }
-        let names: Vec<&str> = self.by_name.keys().map(String::as_str).collect();
+        // A hostile file may name very many.
+        let names: Vec<&str> = self.by_name.keys().take(if reading.problems.is_full() { 0 } else { 1000 }).map(String::as_str).collect();
         let help = match nearest(name, names.iter().copied()) {
             Some(near) => format!("did you mean \"{near}\"?"),
             None if names.is_empty() => "the scene has no `surfaces: { … }` yet".into(),
@@ -77,7 +82,11 @@ fn read_surface(name: &str, value: &Value, reading: &mut Reading) -> Option<Surf
             let reflectance = read_factor(&item, Outside::Hold, reading)?;
             let (least, largest) = reflectance.range_over(0.0, f64::INFINITY);
             if largest > 1.0 {
-                item.problem(&mut reading.problems, format!("the reflectance reaches {largest}, more than all light"), "allowed: 0 to 1 at every wavelength (percent are written as 0.85, not 85)");
+                item.problem(
+                    &mut reading.problems,
+                    format!("the reflectance reaches {largest}, more than all light"),
+                    "allowed: 0 to 1 at every wavelength (percent are written as 0.85, not 85)",
+                );
                 return None;
             }
             if least < 0.0 {

@@ -128,7 +128,10 @@ impl<'t> Parser<'t> {
         self.skip()?;
         match self.next() {
             None => Ok(root),
-            Some(c) => Err(self.broken(format!("`{c}` after the end of the value"), Some("a file holds one value; look for a bracket that closes too early"))),
+            Some(c) => Err(self.broken(
+                format!("`{c}` after the end of the value"),
+                Some("a file holds one value; look for a bracket that closes too early"),
+            )),
         }
     }
 
@@ -250,7 +253,10 @@ impl<'t> Parser<'t> {
         let word = |c: char| continues_name(c) || c == '.';
         let mut end = rest.find(|c| !word(c)).unwrap_or(rest.len());
         // The sign of an exponent belongs to the number.
-        if rest[..end].ends_with(['e', 'E']) && rest.starts_with(|c: char| c.is_ascii_digit() || c == '.') && rest[end..].starts_with(['+', '-']) {
+        if rest[..end].ends_with(['e', 'E'])
+            && rest.starts_with(|c: char| c.is_ascii_digit() || c == '.')
+            && rest[end..].starts_with(['+', '-'])
+        {
             end += 1 + rest[end + 1..].find(|c| !word(c)).unwrap_or(rest.len() - end - 1);
         }
         let digits = rest[..end].replace('_', "");
@@ -325,7 +331,10 @@ impl<'t> Parser<'t> {
             _ => None,
         };
         found.ok_or_else(|| {
-            let mut broken = self.broken("an unknown escape in a text", Some("write `\\\\` for one backslash; allowed: \\n \\r \\t \\0 \\\\ \\\" \\' \\xNN \\u{NNNN}"));
+            let mut broken = self.broken(
+                "an unknown escape in a text",
+                Some("write `\\\\` for one backslash; allowed: \\n \\r \\t \\0 \\\\ \\\" \\' \\xNN \\u{NNNN}"),
+            );
             broken.span = start..self.at;
             broken
         })

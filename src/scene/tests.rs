@@ -84,7 +84,8 @@ fn the_irradiance_on_the_axis_of_a_rectangle_is_the_integral_over_its_area() {
             e += r * r / (x * x + y * y + r * r).powi(2) * w * h / f64::from(n * n);
         }
     }
-    let scene = bench("shape: Rectangle(2, 3), at: (0, 0, 9), strength: Irradiance(watts_per_m2: 1, at_m: 1.5), spectrum: Line(555)").unwrap();
+    let scene =
+        bench("shape: Rectangle(2, 3), at: (0, 0, 9), strength: Irradiance(watts_per_m2: 1, at_m: 1.5), spectrum: Line(555)").unwrap();
     assert!((scene.sources[0].density.total() * e - 1.0).abs() < 1e-5);
 }
 
@@ -131,7 +132,8 @@ fn a_meter_indicates_what_it_was_adjusted_to() {
         (name: "E_v", responsivity: Gaussian(peak: 0.3, centre_nm: 560, fwhm_nm: 100), reads: Illuminance(adjusted_with: "A")),
         (name: "PPFD", responsivity: Band(from_nm: 400, to_nm: 700), reads: PhotonIrradiance),
     ])"#;
-    let scene = scene_from_text(&format!("Scene(instruments: [(name: \"m\", sensor: {sensor}, at: (0, 0, 0), facing: (0, 0, 1))])")).unwrap();
+    let scene =
+        scene_from_text(&format!("Scene(instruments: [(name: \"m\", sensor: {sensor}, at: (0, 0, 0), facing: (0, 0, 1))])")).unwrap();
     let [channel, photons] = scene.instruments[0].sensor.channels.as_slice() else { panic!("two channels") };
     let a = crate::spectrum::Density::illuminant_a();
     assert_close(channel.scale * a.integral(&[&channel.responsivity]), K_M_LM_W * a.integral(&[&v_lambda()]));

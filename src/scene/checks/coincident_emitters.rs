@@ -3,6 +3,7 @@
 //! Rectangles and discs overlap if they lie in one plane, face the same way and their outlines cross by more than a share of
 //! 1e-9; spheres and meshes if they are the same. Emitters that only touch are fine.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::SAME;
@@ -33,18 +34,29 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
             emitting.push(Emitting { source, shape, side, centre, radius_m });
         }
     }
-    // Swept along x: only neighbours whose extents overlap there are compared.
-    emitting.sort_by(|a, b| (a.centre.x - a.radius_m).total_cmp(&(b.centre.x - b.radius_m)));
-    let mut told: Vec<(usize, usize)> = Vec::new();
+    // Swept along the axis of the largest spread: only neighbours whose extents overlap there are compared.
+    let low = emitting.iter().fold(DVec3::INFINITY, |low, e| low.min(e.centre));
+    let high = emitting.iter().fold(DVec3::NEG_INFINITY, |high, e| high.max(e.centre));
+    let axis = (0..3).max_by(|&i, &j| (high[i] - low[i]).total_cmp(&(high[j] - low[j]))).unwrap_or(0);
+    let start = |e: &Emitting| e.centre[axis] - e.radius_m;
+    emitting.sort_by(|a, b| start(a).total_cmp(&start(b)));
+    let mut told: BTreeSet<(usize, usize)> = BTreeSet::new();
     for (i, a) in emitting.iter().enumerate() {
-        for b in emitting[i + 1..].iter().take_while(|b| b.centre.x - b.radius_m <= a.centre.x + a.radius_m) {
+        if problems.is_full() {
+            return;
+        }
+        for b in emitting[i + 1..].iter().take_while(|b| start(b) <= a.centre[axis] + a.radius_m) {
             let pair = (a.source.min(b.source), a.source.max(b.source));
-            if a.source != b.source && overlap(a, b) && !told.contains(&pair) {
-                told.push(pair);
+            if a.source != b.source && overlap(a, b) && told.insert(pair) {
                 let (first, second) = (&scene.sources[pair.0].name, &scene.sources[pair.1].name);
                 let help = "move one of them towards where it shines, or make them one source whose spectrum is a `Sum`";
                 let place = &places.sources[pair.1];
-                place.problem_at(&place.title_span(), problems, format!("the sources \"{first}\" and \"{second}\" emit from the same surface"), help);
+                place.problem_at(
+                    &place.title_span(),
+                    problems,
+                    format!("the sources \"{first}\" and \"{second}\" emit from the same surface"),
+                    help,
+                );
             }
         }
     }

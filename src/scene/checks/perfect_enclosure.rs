@@ -28,16 +28,24 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
         if scene.surfaces[own].reflectance.max_over(0.0, f64::INFINITY) < 1.0 {
             continue;
         }
+        let lit: Vec<_> =
+            scene.sources.iter().zip(&places.sources).filter(|(source, _)| container.is_lit_by(source, &scene.elements)).collect();
+        if lit.is_empty() || problems.is_full() {
+            continue;
+        }
         let surfaces = container.surfaces_inside(&scene.elements, &boxes);
         let reflectances: Vec<&Factor> = surfaces.iter().map(|&index| &scene.surfaces[index].reflectance).collect();
-        for (source, place) in scene.sources.iter().zip(&places.sources) {
-            if !container.is_lit_by(source, &scene.elements) {
-                continue;
-            }
+        for (source, place) in lit {
             if let Some(nm) = perfect_wavelength(&reflectances, source) {
                 let owner = &scene.elements[container.run.start].owner;
-                let message = format!("the reading has no finite value: at {nm} nm nothing in \"{owner}\" absorbs the light of \"{}\"", source.name);
-                place.problem_at(&place.title_span(), problems, message, "give the inside of the container a reflectance below 1, such as 0.99, or put something into it that absorbs");
+                let message =
+                    format!("the reading has no finite value: at {nm} nm nothing in \"{owner}\" absorbs the light of \"{}\"", source.name);
+                place.problem_at(
+                    &place.title_span(),
+                    problems,
+                    message,
+                    "give the inside of the container a reflectance below 1, such as 0.99, or put something into it that absorbs",
+                );
             }
         }
     }
@@ -64,11 +72,16 @@ struct Container {
 }
 
 enum Kind {
-    Sphere { radius_m: f64 },
+    Sphere {
+        radius_m: f64,
+    },
     /// Points and outward normals of the faces.
     Box(Vec<(DVec3, DVec3)>),
     /// The box that holds a closed mesh.
-    Mesh { low: DVec3, high: DVec3 },
+    Mesh {
+        low: DVec3,
+        high: DVec3,
+    },
 }
 
 impl Container {
@@ -80,7 +93,10 @@ impl Container {
                 let (low, high) = mesh.bounds();
                 let centre = low + 0.5 * (high - low);
                 // Six times the volume, positive if the normals point outwards.
-                let volume: f64 = (0..mesh.triangle_count() as u32).filter_map(|i| mesh.triangle(i)).map(|[a, b, c]| (a - centre).dot((b - centre).cross(c - centre))).sum();
+                let volume: f64 = (0..mesh.triangle_count() as u32)
+                    .filter_map(|i| mesh.triangle(i))
+                    .map(|[a, b, c]| (a - centre).dot((b - centre).cross(c - centre)))
+                    .sum();
                 (centre, if volume > 0.0 { Side::Back } else { Side::Front }, Kind::Mesh { low, high })
             }
             [_, _, _, _, _, _] => {
@@ -118,7 +134,11 @@ impl Container {
             Shape::Sphere(s) => {
                 let offset = self.centre - s.centre;
                 // A sphere about the whole container is around it, not in it.
-                if offset.length() < s.radius_m { centre + offset.normalize_or(DVec3::X) * s.radius_m } else { centre + offset.clamp_length_max(s.radius_m) }
+                if offset.length() < s.radius_m {
+                    centre + offset.normalize_or(DVec3::X) * s.radius_m
+                } else {
+                    centre + offset.clamp_length_max(s.radius_m)
+                }
             }
             Shape::Mesh(mesh) => {
                 let (low, high) = mesh.bounds();
@@ -151,9 +171,9 @@ impl Container {
     fn is_lit_by(&self, source: &Source, elements: &[Element]) -> bool {
         match &source.emitter {
             Emitter::Point { at } => self.holds(*at),
-            Emitter::Area { elements: emitting } => {
-                emitting.iter().any(|&(index, side)| if self.run.contains(&index) { side == self.inner } else { self.contains(index, &elements[index]) })
-            }
+            Emitter::Area { elements: emitting } => emitting
+                .iter()
+                .any(|&(index, side)| if self.run.contains(&index) { side == self.inner } else { self.contains(index, &elements[index]) }),
             Emitter::Directional { .. } | Emitter::Environment => false,
         }
     }

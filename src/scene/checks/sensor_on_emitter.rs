@@ -27,9 +27,15 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
                 if near { poses.iter().position(|pose| lies_on(pose, shape, side)) } else { None }
             };
             if let Some(index) = elements.iter().find_map(touches) {
-                let which = if poses.len() > 1 { format!("pose {index} of \"{}\"", instrument.name) } else { format!("\"{}\"", instrument.name) };
+                let which =
+                    if poses.len() > 1 { format!("pose {index} of \"{}\"", instrument.name) } else { format!("\"{}\"", instrument.name) };
                 let message = format!("{which} lies on the emitting surface of \"{}\" and looks into it", source.name);
-                place.problem_at(&place.title_span(), problems, message, "move the instrument away from the source, at least by a small part of the source's size");
+                place.problem_at(
+                    &place.title_span(),
+                    problems,
+                    message,
+                    "move the instrument away from the source, at least by a small part of the source's size",
+                );
             }
         }
     }

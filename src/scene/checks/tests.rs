@@ -43,7 +43,10 @@ fn a_perfect_container_is_refused_only_if_nothing_in_it_absorbs() {
     assert!(!refused(&sphere.replace("Inside", "Outside"), LAMP));
     assert!(!refused(&format!(r#"{sphere}, (name: "plate", shape: Disc(0.2), at: (0, 1, 0), surface: "grey")"#), LAMP));
     assert!(!refused(&format!(r#"{sphere}, (name: "plate", shape: Rectangle(9, 9), at: (0, 1, -1), surface: "grey")"#), LAMP));
-    assert!(!refused(&format!(r#"{sphere}, (name: "ball", shape: Sphere(0.2), at: (0, 1, 0), seen_from: Inside, surface: "perfect")"#), LAMP));
+    assert!(!refused(
+        &format!(r#"{sphere}, (name: "ball", shape: Sphere(0.2), at: (0, 1, 0), seen_from: Inside, surface: "perfect")"#),
+        LAMP
+    ));
     assert!(!refused(sphere, &LAMP.replace("(0, 0, 1)", "(0, 0, 3)")));
     assert!(!refused(sphere, r#"(name: "lamp", shape: Disc(0.1), at: (0, 0, 1), strength: Watts(1), spectrum: "A")"#));
     assert!(!refused(sphere, r#"(name: "sky", shape: Environment, strength: Radiance(1), spectrum: "A")"#));

@@ -11,7 +11,18 @@ fn any_value() -> impl Strategy<Value = String> {
     let leaf = prop_oneof![
         any::<i32>().prop_map(|x| x.to_string()),
         (-1e300..1e300_f64).prop_map(|x| format!("{x:?}")),
-        prop_oneof![Just("1e-4"), Just("+2.5E+3"), Just("-.5"), Just("7."), Just("1_000"), Just("inf"), Just("-inf"), Just("true"), Just("false")].prop_map(str::to_string),
+        prop_oneof![
+            Just("1e-4"),
+            Just("+2.5E+3"),
+            Just("-.5"),
+            Just("7."),
+            Just("1_000"),
+            Just("inf"),
+            Just("-inf"),
+            Just("true"),
+            Just("false")
+        ]
+        .prop_map(str::to_string),
         "[a-zA-Zλ0-9 ,:()]{0,8}".prop_map(|text| format!("{text:?}")),
         Just(r##"r#"a "raw" \ text"#"##.to_string()),
         Just(r#""\n\t\\\"\u{3bb}\x41""#.to_string()),
@@ -32,7 +43,8 @@ fn any_value() -> impl Strategy<Value = String> {
             (items(), any::<bool>()).prop_map(move |(i, c)| format!("[{}]", joined(i, c))),
             (items(), any::<bool>()).prop_map(move |(i, c)| format!("{{{}}}", joined(keyed(i, "\""), c))),
             (name.clone(), items(), any::<bool>()).prop_map(move |(n, i, c)| format!("{n}({})", joined(keyed(i, ""), c))),
-            (name, prop::collection::vec((inner.clone(), blank()), 2..4), any::<bool>()).prop_map(move |(n, i, c)| format!("{n}({})", joined(i, c))),
+            (name, prop::collection::vec((inner.clone(), blank()), 2..4), any::<bool>())
+                .prop_map(move |(n, i, c)| format!("{n}({})", joined(i, c))),
         ]
     })
 }
@@ -49,12 +61,18 @@ fn same(node: &Node, oracle: &Oracle) -> bool {
         (Kind::Text(a), Oracle::String(b)) => a == b,
         (Kind::Bool(a), Oracle::Bool(b)) => a == b,
         (Kind::List(nodes), Oracle::Seq(values)) => list(nodes, values),
-        (Kind::Map(entries), Oracle::Map(map)) => entries.len() == map.len() && entries.iter().zip(map.iter()).all(|((k, v), (ok, ov))| same(k, ok) && same(v, ov)),
+        (Kind::Map(entries), Oracle::Map(map)) => {
+            entries.len() == map.len() && entries.iter().zip(map.iter()).all(|((k, v), (ok, ov))| same(k, ok) && same(v, ov))
+        }
         (Kind::Struct { body: Body::None, .. }, Oracle::Unit) => true,
         (Kind::Struct { body: Body::Positional(nodes), .. }, Oracle::Unit) => nodes.is_empty(),
         (Kind::Struct { body: Body::Positional(nodes), .. }, Oracle::Seq(values)) => list(nodes, values),
         (Kind::Struct { body: Body::Named(fields), .. }, Oracle::Map(map)) => {
-            fields.len() == map.len() && fields.iter().zip(map.iter()).all(|(field, (key, value))| matches!(key, Oracle::String(k) if *k == field.name) && same(&field.value, value))
+            fields.len() == map.len()
+                && fields
+                    .iter()
+                    .zip(map.iter())
+                    .all(|(field, (key, value))| matches!(key, Oracle::String(k) if *k == field.name) && same(&field.value, value))
         }
         _ => false,
     }
