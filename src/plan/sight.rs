@@ -164,8 +164,11 @@ impl Shafts {
         }
     }
 
-    /// Whether receivers and source are on the same side of a plane element, or both within a sphere.
+    /// Whether receivers and source are on the same side of a plane element, or both within a sphere. A mesh has no such sides.
     fn same_side(&self, element: usize, shape: &Shape, source: (f64, f64)) -> bool {
+        if matches!(shape, Shape::Mesh(_)) {
+            return false;
+        }
         let receivers = self.apart[element];
         // Rounding of coordinates is forgiven to the same share of their size as coincident surfaces are.
         let slack = 1e-12 * [receivers.0, receivers.1, source.0, source.1].into_iter().map(f64::abs).fold(0.0, f64::max);
@@ -218,5 +221,43 @@ fn behind(emitter: &Shape, side: Side, occluder: &Shape) -> bool {
         Shape::Rectangle(r) => behind_plane(r.centre, r.normal()),
         Shape::Disc(d) => behind_plane(d.centre, d.normal),
         Shape::Sphere(_) | Shape::Mesh(_) => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{MemoryFiles, read_scene};
+
+    /// A lamp 2 m above a sensor, and a square mesh of 1 m around a point.
+    fn is_clear(lamp: &str, mesh_at: &str) -> bool {
+        let text = format!(
+            r#"Scene(
+                objects: [(name: "plate", shape: Mesh("plate.obj"), at: {mesh_at}, surface: Black)],
+                sources: [(name: "lamp", {lamp}, spectrum: Line(555))],
+                instruments: [(name: "meter", at: (0, 0, 0), facing: (0, 0, 1), sensor: Sensor(aperture: Disc(radius_mm: 5), acceptance: Cosine,
+                    channels: [(name: "E", responsivity: 1.0, reads: Irradiance)]))],
+            )"#
+        );
+        let plate = "v -0.5 -0.5 0\nv 0.5 -0.5 0\nv 0.5 0.5 0\nv -0.5 0.5 0.1\nf 1 2 3\nf 1 3 4\n";
+        let files = MemoryFiles::new().with("scene.ron", text).with("plate.obj", plate);
+        let scene = read_scene("scene.ron", &files, None).unwrap();
+        Shafts::new(&scene, &scene.instruments[0]).clear(&scene, &scene.sources[0])
+    }
+
+    #[test]
+    fn a_mesh_on_the_way_is_never_proved_clear() {
+        for lamp in [
+            "shape: Point, at: (0, 0, 2), strength: Watts(1)",
+            "shape: Directional, facing: (0, 0, -1), strength: WattsPerSquareMetre(1)",
+            "shape: Rectangle(0.1, 0.1), at: (0, 0, 2), facing: (0, 0, -1), strength: Watts(1)",
+            "shape: Disc(0.1), at: (0, 0, 2), facing: (0, 0, -1), strength: Watts(1)",
+            "shape: Sphere(0.1), at: (0, 0, 2), strength: Watts(1)",
+            "shape: Environment, strength: Radiance(1)",
+        ] {
+            assert!(!is_clear(lamp, "(0, 0, 1)"), "{lamp}");
+            assert!(is_clear(lamp, "(0, 0, -1)"), "{lamp}, the mesh below the horizon");
+        }
+        assert!(is_clear("shape: Sphere(0.1), at: (0, 0, 2), strength: Watts(1)", "(3, 0, 1)"), "the mesh far beside");
     }
 }
