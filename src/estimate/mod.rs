@@ -15,6 +15,7 @@
 //! | `sky.rs` | direct light of an environment that may be hidden |
 //! | `paths/` | reflected light |
 //! | `job.rs` | what these three have in common |
+//! | `task.rs` | what is to be done for an instrument |
 //! | `campaign.rs` | how many samples for which job: the stopping rule |
 //! | `run.rs` | threads |
 //!
@@ -31,6 +32,7 @@ mod paths;
 mod receiver;
 pub mod run;
 mod sky;
+mod task;
 
 pub use campaign::estimate;
 

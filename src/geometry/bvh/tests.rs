@@ -1,3 +1,5 @@
+//! Laws of the tree and its search.
+
 use super::*;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
