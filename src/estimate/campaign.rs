@@ -20,6 +20,8 @@ use crate::scene::Scene;
 
 /// Points a replicate in the first round.
 const FIRST_POINTS: u32 = 16;
+/// Points a replicate after which a search that has found nothing ends, with the bound of what it may have missed.
+const MOST_BLIND_POINTS: u32 = 1 << 16;
 /// The trial ends at this multiple of the target.
 const TRIAL_RATIO: f64 = 2.0;
 /// How much larger than the trial's spread the true one is taken to be: 1.44 is its upper 95 % limit at 15 degrees of freedom, and
@@ -191,6 +193,7 @@ impl Batch<'_> {
                 }
                 state.standing = Standing::Reading;
             } else if verdict.ratio > 1.0 {
+                let most = if verdict.blind { most.min(MOST_BLIND_POINTS) } else { most };
                 let may_grow = |job: &usize| state.jobs[*job].points < most && verdict.gain[*job] > 0.0;
                 let by_gain = |a: &usize, b: &usize| verdict.gain[*a].total_cmp(&verdict.gain[*b]).then(b.cmp(a));
                 let next = (0..state.jobs.len()).filter(may_grow).max_by(by_gain);
@@ -212,7 +215,7 @@ impl Batch<'_> {
     /// How far from the target the worst channel is, and what each job would gain by growing.
     fn judge(&self, state: &PoseState<'_>) -> Verdict {
         let active: Vec<usize> = (0..state.jobs.len()).filter(|&j| state.active[j]).collect();
-        let mut verdict = Verdict { ratio: 0.0, gain: vec![0.0; state.jobs.len()] };
+        let mut verdict = Verdict { ratio: 0.0, gain: vec![0.0; state.jobs.len()], blind: true };
         for channel in &self.task.channels(state) {
             let mut budget = Budget::new();
             let mut value = channel.exact.value;
@@ -232,6 +235,7 @@ impl Batch<'_> {
             // Without a target the budget of time alone ends the run.
             let ratio = self.stop.target.map_or(f64::INFINITY, |target| expanded / (target * value.abs()));
             verdict.ratio = verdict.ratio.max(if ratio.is_nan() { f64::INFINITY } else { ratio });
+            verdict.blind &= value == 0.0;
             let size = budget.combined_standard_uncertainty();
             for (&job, u) in active.iter().zip(sizes) {
                 let cost = f64::from(state.jobs[job].points) * self.task.jobs[job].0.cost();
@@ -248,4 +252,6 @@ struct Verdict {
     ratio: f64,
     /// Share of the variance per sample and cost, a job each.
     gain: Vec<f64>,
+    /// Nothing has been found at all: more samples only lower the bound of what was missed.
+    blind: bool,
 }

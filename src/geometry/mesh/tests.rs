@@ -1,3 +1,5 @@
+//! Laws of meshes in the world.
+
 use super::*;
 use crate::geometry::bvh::tests::{Stream, bumpy_icosphere, icosphere};
 use proptest::prelude::*;

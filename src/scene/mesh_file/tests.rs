@@ -1,3 +1,5 @@
+//! Files of meshes, whole and broken.
+
 use super::*;
 use proptest::prelude::*;
 
