@@ -1,12 +1,14 @@
-//! How many samples for which job: rounds of doubling until every reading is good enough.
+//! How many samples for which job: a trial finds out, and a run with numbers of its own gives the reading.
 //!
 //! ```text
-//! stop when k √(f² u_A² + u_B²) ≤ target · |value|        f = √(ν/χ²₀.₀₅(ν)): the upper limit of the spread
-//! else double the job with the largest u² / (samples · cost)
+//! trial     double the job with the largest u² / (samples · cost) until k u_c ≤ 2 target · |value|
+//! reading   new numbers, points × (2 k u_c / target |value|)² rounded up to a power of two; doubled on if that was not enough
 //! ```
 //!
-//! Stopping at the first small spread would favour spreads that are small by luck, and the intervals would cover too little; the
-//! upper limit takes that away. Rounds and their pieces depend on the numbers of samples alone, never on time or threads.
+//! A run that stops at the first small spread favours spreads that are small by luck: its intervals cover too little, and where the
+//! spread goes with the value it is biased. So nothing of the run that decides is reported, and the reading is planned with a margin
+//! that makes it rare that it has to go on. Rounds and their pieces depend on the numbers of samples alone, never on time or
+//! threads.
 
 use super::deterministic::{direct, sphere_wall};
 use super::direct::{SourceJob, connection};
@@ -17,13 +19,17 @@ use super::run::in_order;
 use super::{ChannelEstimate, Counters, EstimateError, Estimates, Exact, PoseEstimate, REPLICATES, Stop, Watch};
 use crate::geometry::world::World;
 use crate::math::random::Stream;
-use crate::metrology::replicates::spread_upper_factor;
 use crate::metrology::{Budget, BudgetRow, CompensatedSum, Replicates};
 use crate::plan::{Method, Plan, Transport, Visibility};
 use crate::scene::{Instrument, Scene};
 
 /// Points a replicate in the first round.
 const FIRST_POINTS: u32 = 16;
+/// The trial ends at this multiple of the target.
+const TRIAL_RATIO: f64 = 2.0;
+/// How much larger than the trial's spread the true one is taken to be: 1.44 is its upper 95 % limit at 15 degrees of freedom, and
+/// a trial that ends at the first spread below its mark has a small one by choice.
+const UPPER_SPREAD: f64 = 2.0;
 /// Points of all replicates in one piece of work.
 const PIECE: u32 = 16_384;
 /// Poses that are estimated together; bounds the memory for sums.
@@ -195,7 +201,17 @@ impl<'a> Task<'a> {
         for (exact, sum) in exact.iter_mut().zip(&sums) {
             exact.value = sum.value();
         }
-        PoseState { pose, receiver, exact, active, jobs: vec![Progress::default(); self.jobs.len()], counters, finished: false, target_met: true }
+        PoseState { pose, receiver, exact, active, jobs: vec![Progress::default(); self.jobs.len()], counters, standing: Standing::Trial, target_met: true }
+    }
+
+    /// The unobstructed light of a sampled source, where a formula gives it.
+    fn known(&self, pose: usize, job: usize) -> Option<f64> {
+        match &self.jobs[job].0 {
+            Job::Source(j) if j.has_formula => {
+                direct(self.scene, &self.instrument.sensor, &self.instrument.poses[pose], j.light).map(|found| found.value)
+            }
+            _ => None,
+        }
     }
 
     fn channels(&self, state: &PoseState<'_>) -> Vec<ChannelEstimate> {
@@ -225,8 +241,19 @@ struct PoseState<'a> {
     active: Vec<bool>,
     jobs: Vec<Progress>,
     counters: Counters,
-    finished: bool,
+    standing: Standing,
     target_met: bool,
+}
+
+/// Where a pose is on its way.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Standing {
+    /// Finds out how many samples are needed.
+    Trial,
+    /// Takes the samples that will be reported.
+    Reading,
+    /// Done.
+    Finished,
 }
 
 /// Poses that are estimated together.
@@ -255,7 +282,11 @@ impl Batch<'_> {
             for job in (0..state.jobs.len()).filter(|&j| state.active[j]) {
                 let stream = self.task.stream(self.seed, pose, job).child(u64::MAX);
                 let (share, counted) = self.task.jobs[job].0.pilot(self.task.world, &state.receiver, stream);
+                if self.stop.samples.is_some() || self.stop.target.is_none() {
+                    state.standing = Standing::Reading;
+                }
                 state.jobs[job].share_clear = share;
+                state.jobs[job].known = self.task.known(pose, job);
                 state.counters.add(&counted);
             }
             state
@@ -310,9 +341,9 @@ impl Batch<'_> {
         let shared: &[PoseState<'_>] = states;
         let pieces = in_order(&work, |w| {
             let state = &shared[w.slot];
-            let stream = self.task.stream(self.seed, state.pose, w.job);
+            let stream = self.task.stream(self.seed, state.pose, w.job).child(state.standing as u64);
             let job = &self.task.jobs[w.job].0;
-            job.sample(self.task.scene, self.task.world, &state.receiver, stream, (w.first, w.count), state.jobs[w.job].share_clear)
+            job.sample(self.task.world, &state.receiver, stream, (w.first, w.count), &state.jobs[w.job])
         });
         for (w, piece) in work.iter().zip(pieces) {
             let piece = piece.map_err(|_| EstimateError::Endless { instrument: self.task.instrument.name.clone() })?;
@@ -334,64 +365,83 @@ impl Batch<'_> {
 
     /// Who needs more samples, and of what.
     fn assess(&self, states: &mut [PoseState<'_>], late: bool) -> Vec<(usize, usize, u32)> {
-        let most = (MOST_SAMPLES_IN_ALL / self.poses as u64).clamp(1 << 16, MOST_SAMPLES) / REPLICATES as u64;
-        let slots: Vec<usize> = (0..states.len()).filter(|&s| !states[s].finished).collect();
+        let most = self.most_points();
+        let slots: Vec<usize> = (0..states.len()).filter(|&s| states[s].standing != Standing::Finished).collect();
         let shared: &[PoseState<'_>] = states;
-        let verdicts = in_order(&slots, |&slot| self.judge(&shared[slot], most as u32));
+        let verdicts = in_order(&slots, |&slot| self.judge(&shared[slot]));
         let mut requests = Vec::new();
-        for (slot, (met, next)) in slots.into_iter().zip(verdicts) {
+        for (slot, verdict) in slots.into_iter().zip(verdicts) {
             let state = &mut states[slot];
-            state.target_met = met;
-            match next {
-                Some(job) if !met && !late => requests.push((slot, job, 2 * state.jobs[job].points)),
-                _ => state.finished = true,
+            state.target_met = verdict.ratio <= 1.0;
+            let before = requests.len();
+            if late || verdict.ratio == 0.0 {
+                // Out of time, or nothing varies.
+            } else if state.standing == Standing::Trial && verdict.ratio <= TRIAL_RATIO {
+                let factor = (UPPER_SPREAD * verdict.ratio).powi(2);
+                for job in (0..state.jobs.len()).filter(|&j| state.active[j]) {
+                    // What did not vary in the trial is read with as many points as the trial had.
+                    let factor = if verdict.gain[job] > 0.0 { factor.max(1.0) } else { 1.0 };
+                    let points = (f64::from(state.jobs[job].points) * factor).min(f64::from(most)) as u32;
+                    requests.push((slot, job, points.next_power_of_two()));
+                    state.jobs[job].restart();
+                }
+                state.standing = Standing::Reading;
+            } else if verdict.ratio > 1.0 {
+                let may_grow = |job: &usize| state.jobs[*job].points < most && verdict.gain[*job] > 0.0;
+                let by_gain = |a: &usize, b: &usize| verdict.gain[*a].total_cmp(&verdict.gain[*b]).then(b.cmp(a));
+                let next = (0..state.jobs.len()).filter(may_grow).max_by(by_gain);
+                requests.extend(next.map(|job| (slot, job, 2 * state.jobs[job].points)));
+            }
+            if requests.len() == before {
+                state.standing = Standing::Finished;
             }
         }
         requests
     }
 
-    /// Whether every channel meets the target, and which job should grow otherwise.
-    fn judge(&self, state: &PoseState<'_>, most: u32) -> (bool, Option<usize>) {
+    /// Points a replicate at which a target is given up.
+    fn most_points(&self) -> u32 {
+        let samples = (MOST_SAMPLES_IN_ALL / self.poses as u64).clamp(1 << 16, MOST_SAMPLES);
+        (samples / REPLICATES as u64) as u32
+    }
+
+    /// How far from the target the worst channel is, and what each job would gain by growing.
+    fn judge(&self, state: &PoseState<'_>) -> Verdict {
         let active: Vec<usize> = (0..state.jobs.len()).filter(|&j| state.active[j]).collect();
-        let mut met = true;
-        let mut gain = vec![0.0f64; state.jobs.len()];
-        for (c, channel) in self.task.channels(state).iter().enumerate() {
-            let mut spread = Budget::new();
-            let mut rest = Budget::new();
+        let mut verdict = Verdict { ratio: 0.0, gain: vec![0.0; state.jobs.len()] };
+        for channel in &self.task.channels(state) {
+            let mut budget = Budget::new();
             let mut value = channel.exact.value;
-            let mut squares = Vec::with_capacity(active.len());
+            let mut sizes = Vec::with_capacity(active.len());
             for sampled in &channel.sampled {
                 let Some(found) = Replicates::evaluate(&sampled.replicates) else { continue };
                 value += found.mean;
-                spread.push(BudgetRow::type_a("", found.standard_uncertainty, found.degrees_of_freedom()));
                 let missed = sampled.missed.as_ref().map_or(0.0, |(bound, _)| bound / 3f64.sqrt());
-                rest.push(BudgetRow::normal("", missed));
-                squares.push((found.standard_uncertainty, missed));
+                budget.push(BudgetRow::type_a("", found.standard_uncertainty, found.degrees_of_freedom()));
+                budget.push(BudgetRow::normal("", missed));
+                sizes.push(found.standard_uncertainty.hypot(missed));
             }
-            let nu = spread.effective_degrees_of_freedom();
-            let factor = spread_upper_factor(nu).unwrap_or(1.0);
-            let (a, b) = (factor * spread.combined_standard_uncertainty(), rest.combined_standard_uncertainty());
-            let mut total = Budget::new();
-            total.push(BudgetRow::type_a("", a, nu));
-            total.push(BudgetRow::normal("", b));
-            let upper = total.expanded().map_or(f64::INFINITY, |e| e.expanded_uncertainty);
+            let expanded = budget.expanded().map_or(f64::INFINITY, |e| e.expanded_uncertainty);
+            if expanded == 0.0 {
+                continue;
+            }
             // Without a target the budget of time alone ends the run.
-            let good = upper == 0.0 || self.stop.target.is_some_and(|target| upper <= target * value.abs());
-            debug_assert!(c < state.exact.len());
-            if !good {
-                met = false;
-                let size = a.hypot(b);
-                for (&job, (u, missed)) in active.iter().zip(squares) {
-                    let cost = f64::from(state.jobs[job].points) * self.task.jobs[job].0.cost();
-                    let share = u.hypot(missed) / size;
-                    gain[job] += share * share / cost;
-                }
+            let ratio = self.stop.target.map_or(f64::INFINITY, |target| expanded / (target * value.abs()));
+            verdict.ratio = verdict.ratio.max(if ratio.is_nan() { f64::INFINITY } else { ratio });
+            let size = budget.combined_standard_uncertainty();
+            for (&job, u) in active.iter().zip(sizes) {
+                let cost = f64::from(state.jobs[job].points) * self.task.jobs[job].0.cost();
+                verdict.gain[job] += (u / size).powi(2) / cost;
             }
         }
-        let next = active
-            .into_iter()
-            .filter(|&j| state.jobs[j].points < most && gain[j] > 0.0)
-            .max_by(|&a, &b| gain[a].total_cmp(&gain[b]).then(b.cmp(&a)));
-        (met, next)
+        verdict
     }
+}
+
+/// How good a pose is.
+struct Verdict {
+    /// Expanded uncertainty over what the target allows, of the worst channel; zero where nothing varies.
+    ratio: f64,
+    /// Share of the variance per sample and cost, a job each.
+    gain: Vec<f64>,
 }

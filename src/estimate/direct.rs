@@ -1,15 +1,16 @@
 //! Direct light of a source that something may hide.
 //!
 //! ```text
-//! E = ⟨ β E₀(x) + g (V − β) ⟩        g: a connection as if it were clear, V: whether it is, E₀ = ⟨g⟩ in closed form
+//! E = β E₀ + ⟨ g (V − β) ⟩        g: a connection as if it were clear, V: whether it is, E₀ = ⟨g⟩ by its formula
 //! ```
 //!
 //! β is the share of the light that a pilot run found clear, with random numbers of its own; for any fixed β the estimate is
-//! unbiased. Where nothing hides the source β = 1 and V = 1: the closed form comes out without any spread. Where all is hidden,
-//! zero does. Between the two, in the penumbra, most of the variation of g is taken away. Without a closed form β = 0.
+//! unbiased. Where nothing hides the source β = 1 and V = 1: the formula comes out without any spread. Where all is hidden, zero
+//! does. Between the two, in the penumbra, most of the variation of g is taken away. Without a formula β = 0.
 
 
-use super::closed_form::aperture::Bounded;
+use multiversion::multiversion;
+
 use super::deterministic::at_point;
 use super::job::Piece;
 use super::light::Lights;
@@ -17,11 +18,11 @@ use super::receiver::Receiver;
 use super::{Counters, REPLICATES};
 use crate::geometry::rays::{LANES, Rays};
 use crate::geometry::world::World;
-use crate::math::random::Stream;
+use crate::math::random::{Stream, four_in_lanes};
 use crate::plan::choose::{Formula, formula};
 use crate::plan::{Term, Visibility};
 use crate::scene::Scene;
-use crate::sensor::{Acceptance, Aperture, Sensor};
+use crate::sensor::Sensor;
 use crate::source::{Emitter, Source};
 
 /// Connections of the pilot run.
@@ -33,8 +34,8 @@ pub(super) struct SourceJob<'a> {
     pub(super) source: usize,
     pub(super) light: &'a Source,
     lights: Lights,
-    /// Whether there is a closed form at a point of the aperture.
-    has_formula: bool,
+    /// Whether there is a formula for the unobstructed light.
+    pub(super) has_formula: bool,
     /// Whether something may stand in the way.
     pub(super) tested: bool,
     /// The most that a source with a radiance can give, per unit of it; zero for a source without extent.
@@ -45,21 +46,15 @@ impl<'a> SourceJob<'a> {
     pub(super) fn new(scene: &'a Scene, sensor: &Sensor, term: &Term, naive: bool) -> SourceJob<'a> {
         let source = term.id.source();
         let light = &scene.sources[source];
-        let pointlike = Sensor { aperture: Aperture::Point, ..sensor.clone() };
         SourceJob {
             source,
             light,
             lights: Lights::new(scene, [(light, 0, 1.0)]),
             // The naive plan is a check on the formulas and must not use them.
-            has_formula: !naive && formula(scene, &pointlike, light) == Formula::Exact,
+            has_formula: !naive && formula(scene, sensor, light) != Formula::Unknown,
             tested: term.visibility == Visibility::Tested,
             largest: if matches!(light.emitter, Emitter::Area { .. }) { sensor.acceptance.projected_solid_angle_sr() } else { 0.0 },
         }
-    }
-
-    fn formula(&self, scene: &Scene, acceptance: &Acceptance, receiver: &Receiver<'_>, at: crate::math::DVec3) -> f64 {
-        let Bounded { value, .. } = at_point(scene, acceptance, &receiver.pose, at, self.light);
-        value
     }
 }
 
@@ -68,7 +63,7 @@ pub(super) fn pilot(job: &SourceJob<'_>, world: &World, receiver: &Receiver<'_>,
         return (0.0, Counters::default());
     }
     let (mut all, mut clear, mut rays) = (0.0, 0.0, 0);
-    each_connection(job, world, receiver, &[stream], (0, PILOT), |_, _, g, visible| {
+    each_connection(job, world, receiver, &[stream], (0, PILOT), |_, g, visible| {
         all += g;
         clear += if visible { g } else { 0.0 };
         rays += u64::from(g > 0.0);
@@ -77,18 +72,19 @@ pub(super) fn pilot(job: &SourceJob<'_>, world: &World, receiver: &Receiver<'_>,
     (share, Counters { rays: if job.tested { rays } else { 0 }, samples: u64::from(PILOT), ..Counters::default() })
 }
 
+/// The points `first .. first + count` of every replicate; `known` is E₀, and β is zero without it.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx2+fma", "x86_64+avx2+fma"))]
 pub(super) fn sample(
-    scene: &Scene,
     job: &SourceJob<'_>,
     world: &World,
     receiver: &Receiver<'_>,
     stream: Stream,
     (first, count): (u32, u32),
     share_clear: f64,
+    known: Option<f64>,
 ) -> Piece {
     let streams: [Stream; REPLICATES] = std::array::from_fn(|r| stream.child(r as u64));
-    let beta = if job.has_formula { share_clear } else { 0.0 };
-    let at_centre = if beta > 0.0 { job.formula(scene, receiver.acceptance, receiver, receiver.pose.at) } else { 0.0 };
+    let (beta, known) = known.map_or((0.0, 0.0), |known| (share_clear, known));
     let mut piece = Piece {
         sums: vec![0.0; REPLICATES],
         connections: 0,
@@ -96,15 +92,9 @@ pub(super) fn sample(
         potential: 0.0,
         counters: Counters { samples: u64::from(count) * REPLICATES as u64, ..Counters::default() },
     };
-    each_connection(job, world, receiver, &streams, (first, count), |replicate, at, g, visible| {
-        let known = match receiver.aperture {
-            _ if beta == 0.0 => 0.0,
-            Aperture::Point => at_centre,
-            _ => job.formula(scene, receiver.acceptance, receiver, at),
-        };
-        let v = f64::from(visible);
-        // Written so that β = V leaves the closed form alone, without g's rounding.
-        piece.sums[replicate] += beta * known + g * (v - beta);
+    each_connection(job, world, receiver, &streams, (first, count), |replicate, g, visible| {
+        // Written so that β = V leaves the formula alone, without g's rounding.
+        piece.sums[replicate] += beta * known + g * (f64::from(visible) - beta);
         if g > 0.0 {
             piece.connections += 1;
             piece.clear += u64::from(visible);
@@ -115,14 +105,15 @@ pub(super) fn sample(
     piece
 }
 
-/// Calls `take(replicate, point of the aperture, g, whether it is clear)` for every point of every stream, sixteen at a time.
+/// Calls `take(replicate, g, whether it is clear)` for every point of every stream, sixteen at a time.
+#[inline(always)]
 fn each_connection(
     job: &SourceJob<'_>,
     world: &World,
     receiver: &Receiver<'_>,
     streams: &[Stream],
     (first, count): (u32, u32),
-    mut take: impl FnMut(usize, crate::math::DVec3, f64, bool),
+    mut take: impl FnMut(usize, f64, bool),
 ) {
     let items = count as usize * streams.len();
     let mut rays = Rays::none();
@@ -132,11 +123,14 @@ fn each_connection(
     for start in (0..items).step_by(LANES) {
         let lanes = LANES.min(items - start);
         rays.active = [false; LANES];
+        let mut u = [[0.0; LANES]; 4];
+        let item = |lane: usize| start + lane.min(lanes - 1);
+        let chosen = std::array::from_fn(|lane| streams[item(lane) % streams.len()]);
+        let indices = std::array::from_fn(|lane| first + (item(lane) / streams.len()) as u32);
+        four_in_lanes(&chosen, &indices, &[0; LANES], &mut u);
         for lane in 0..lanes {
-            let item = start + lane;
-            let u = streams[item % streams.len()].four(first + (item / streams.len()) as u32, 0);
-            let at = receiver.point([u[2], u[3]]);
-            let light = job.lights.sample(at, [u[0], u[1]]);
+            let at = receiver.point([u[2][lane], u[3][lane]]);
+            let light = job.lights.sample(at, [u[0][lane], u[1][lane]]);
             let cosine = receiver.pose.normal.dot(light.to);
             g[lane] = if light.weight > 0.0 && cosine > 0.0 { light.weight * cosine * receiver.response(light.to) } else { 0.0 };
             rays.active[lane] = g[lane] > 0.0;
@@ -148,7 +142,7 @@ fn each_connection(
         }
         let blocked = if job.tested { world.blocked(&rays) } else { [false; LANES] };
         for lane in 0..lanes {
-            take((start + lane) % streams.len(), rays.origin.get(lane), g[lane], !blocked[lane]);
+            take((start + lane) % streams.len(), g[lane], !blocked[lane]);
         }
     }
 }

@@ -8,7 +8,6 @@ use super::{Counters, EstimateError, REPLICATES, Sampled};
 use crate::geometry::world::World;
 use crate::math::random::Stream;
 use crate::plan::spectral::SpectralPlan;
-use crate::scene::Scene;
 
 /// Confidence 95 %: if N independent trials all had the same outcome, the other one has a probability below 3/N.
 const RULE_OF_THREE: f64 = 3.0;
@@ -37,6 +36,15 @@ pub(super) struct Progress {
     pub(super) potential: f64,
     /// Share of the light that a pilot run found clear.
     pub(super) share_clear: f64,
+    /// The unobstructed light by its formula, where there is one.
+    pub(super) known: Option<f64>,
+}
+
+impl Progress {
+    /// Forgets all samples, but not what is known beforehand.
+    pub(super) fn restart(&mut self) {
+        *self = Progress { share_clear: self.share_clear, known: self.known, ..Progress::default() };
+    }
 }
 
 /// What a piece of work brought.
@@ -86,16 +94,15 @@ impl Job<'_> {
     /// The points `first .. first + count` of every replicate.
     pub(super) fn sample(
         &self,
-        scene: &Scene,
         world: &World,
         receiver: &Receiver<'_>,
         stream: Stream,
         (first, count): (u32, u32),
-        share_clear: f64,
+        progress: &Progress,
     ) -> Result<Piece, EstimateError> {
         match self {
-            Job::Source(job) => Ok(direct::sample(scene, job, world, receiver, stream, (first, count), share_clear)),
-            Job::Sky { .. } => Ok(sky::sample(world, receiver, stream, (first, count), share_clear)),
+            Job::Source(job) => Ok(direct::sample(job, world, receiver, stream, (first, count), progress.share_clear, progress.known)),
+            Job::Sky { .. } => Ok(sky::sample(world, receiver, stream, (first, count), progress.share_clear)),
             Job::Paths { scene, .. } => {
                 let out = trace(scene, receiver, stream, first, count);
                 if out.endless {

@@ -7,13 +7,15 @@
 
 use std::f64::consts::PI;
 
+use multiversion::multiversion;
+
 use super::job::Piece;
 use super::receiver::Receiver;
 use super::{Counters, REPLICATES};
 use crate::geometry::rays::{LANES, Rays};
 use crate::geometry::world::World;
 use crate::math::frame::world_from_local;
-use crate::math::random::Stream;
+use crate::math::random::{Stream, four_in_lanes};
 use crate::math::sample::sample_cosine_cone;
 
 /// Directions of the pilot run.
@@ -29,6 +31,7 @@ pub(super) fn pilot(world: &World, receiver: &Receiver<'_>, stream: Stream) -> (
     (share, Counters { rays: u64::from(PILOT), samples: u64::from(PILOT), ..Counters::default() })
 }
 
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx2+fma", "x86_64+avx2+fma"))]
 pub(super) fn sample(world: &World, receiver: &Receiver<'_>, stream: Stream, (first, count): (u32, u32), beta: f64) -> Piece {
     let streams: [Stream; REPLICATES] = std::array::from_fn(|r| stream.child(r as u64));
     let samples = u64::from(count) * REPLICATES as u64;
@@ -51,6 +54,7 @@ pub(super) fn sample(world: &World, receiver: &Receiver<'_>, stream: Stream, (fi
     piece
 }
 
+#[inline(always)]
 fn each_direction(
     world: &World,
     receiver: &Receiver<'_>,
@@ -66,12 +70,15 @@ fn each_direction(
     for start in (0..items).step_by(LANES) {
         let lanes = LANES.min(items - start);
         rays.active = [false; LANES];
+        let mut u = [[0.0; LANES]; 4];
+        let item = |lane: usize| start + lane.min(lanes - 1);
+        let chosen = std::array::from_fn(|lane| streams[item(lane) % streams.len()]);
+        let indices = std::array::from_fn(|lane| first + (item(lane) / streams.len()) as u32);
+        four_in_lanes(&chosen, &indices, &[0; LANES], &mut u);
         for lane in 0..lanes {
-            let item = start + lane;
-            let u = streams[item % streams.len()].four(first + (item / streams.len()) as u32, 0);
-            let direction = world_from_local(receiver.pose.normal, sample_cosine_cone([u[0], u[1]], receiver.sine_limit));
+            let direction = world_from_local(receiver.pose.normal, sample_cosine_cone([u[0][lane], u[1][lane]], receiver.sine_limit));
             rays.active[lane] = true;
-            rays.origin.set(lane, receiver.point([u[2], u[3]]));
+            rays.origin.set(lane, receiver.point([u[2][lane], u[3][lane]]));
             rays.direction.set(lane, direction);
         }
         let blocked = world.blocked(&rays);

@@ -81,6 +81,14 @@ const fn mix(mut z: u64) -> u64 {
     z ^ (z >> 31)
 }
 
+/// Wellons' lowbias32.
+#[inline(always)]
+const fn mix_32(mut x: u32) -> u32 {
+    x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
+    x = (x ^ (x >> 15)).wrapping_mul(0x846c_a68b);
+    x ^ (x >> 16)
+}
+
 #[inline(always)]
 fn unit_interval(x: u32) -> f64 {
     // Half a step from either end: neither 0 nor 1 can come out.
@@ -115,12 +123,12 @@ impl Stream {
         unit_interval((mix(self.key ^ 0x5851_f42d_4c95_7f2d) >> 32) as u32)
     }
 
+    /// Keys of the index and of the four dimensions of a set.
     #[inline(always)]
     fn keys(self, set: u32) -> [u32; 5] {
-        let a = mix(self.key ^ (u64::from(set) << 1 | 1).wrapping_mul(0xd6e8_feb8_6659_fd93));
-        let b = mix(a.wrapping_add(0x9e37_79b9_7f4a_7c15));
-        let c = mix(b.wrapping_add(0x9e37_79b9_7f4a_7c15));
-        [a as u32, (a >> 32) as u32, b as u32, (b >> 32) as u32, c as u32]
+        let whole = mix(self.key ^ (u64::from(set) << 1 | 1).wrapping_mul(0xd6e8_feb8_6659_fd93));
+        let (low, high) = (whole as u32, (whole >> 32) as u32);
+        [low, high, mix_32(low ^ 0x9e37_79b9), mix_32(high ^ 0x7f4a_7c15), mix_32(low.wrapping_add(high))]
     }
 
     /// Four numbers in (0, 1): dimensions `4·set` to `4·set + 3` of point `index`.

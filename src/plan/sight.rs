@@ -166,6 +166,10 @@ impl Shafts {
 
     /// Whether receivers and source are on the same side of a plane element, or both within a sphere.
     fn same_side(&self, element: usize, shape: &Shape, source: (f64, f64)) -> bool {
+        if matches!(shape, Shape::Mesh(_)) {
+            // A mesh has no side of its own; and the slack of endless ranges would forgive everything.
+            return false;
+        }
         let receivers = self.apart[element];
         // Rounding of coordinates is forgiven to the same share of their size as coincident surfaces are.
         let slack = 1e-12 * [receivers.0, receivers.1, source.0, source.1].into_iter().map(f64::abs).fold(0.0, f64::max);

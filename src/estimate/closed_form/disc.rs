@@ -14,7 +14,7 @@
 //! | `radius_m` | radius R | m |
 //! | `normal` | receiver's normal n, any length | 1 |
 //!
-//! Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-12 and B-14 to B-17, combined to the flux vector and freed of the
+//! Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors (element to disk, parallel and perpendicular), combined to the flux vector and freed of the
 //! differences `1 − (…)/√(…)`; m is the unit normal of the disc away from the receiver. In the plane of the disc the result is the limit
 //! from its emitting side: π(1 + n·m)/2 inside, 0 on the rim and outside.
 

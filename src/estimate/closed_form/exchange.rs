@@ -12,13 +12,13 @@
 //! | `rel_tol` | relative tolerance asked for | 1 |
 //!
 //! The etendue is π A₁ F₁₂; r₀ is any constant length and keeps the logarithms small. Discs: Howell, A Catalog of Radiation Heat
-//! Transfer Configuration Factors, C-41, freed of `X − √(X² − 4…)`. Polygons: Sparrow, J. Heat Transfer 85 (1963) 81. Where the contour sum
+//! Transfer Configuration Factors (coaxial parallel disks of unequal radius), freed of `X − √(X² − 4…)`. Polygons: Sparrow, J. Heat Transfer 85 (1963) 81. Where the contour sum
 //! cancels (surfaces that are small against their distance) the closed form of one polygon is averaged over the other.
 
 use super::aperture::{Aperture, Bounded, aperture_average};
 use super::frame::power_of_two_scale;
 use super::polygon::polygon_two_sided;
-use super::quadrature::integrate_between;
+use super::quadrature::integrate_to;
 use crate::math::DVec3;
 use std::f64::consts::PI;
 
@@ -100,19 +100,19 @@ fn double_contour(a: &[DVec3], b: &[DVec3]) -> Bounded {
             );
             breaks.sort_by(f64::total_cmp);
             breaks.dedup();
-            let magnitude = std::cell::Cell::new(0.0_f64);
+            let noise = std::cell::Cell::new(0.0_f64);
             let inner = |t: f64| {
                 let v = p0 + dp * t - q0;
                 let u = v.dot(along);
                 let across = v.cross(along).length();
-                let sum = log_integral(lq - u, across, unit_length)
-                    + log_integral(u, across, unit_length);
-                magnitude.set(magnitude.get().max(sum.abs() / lq));
-                sum / lq
+                let ends = [lq - u, u].map(|x| (x, log_integral(x, across, unit_length)));
+                let terms: f64 = ends.iter().map(|(x, value)| x.abs() + value.abs()).sum();
+                noise.set(noise.get().max(f64::EPSILON * terms / lq));
+                (ends[0].1 + ends[1].1) / lq
             };
-            let integral = integrate_between(&breaks, &inner, 1e-14);
+            let integral = integrate_to(&breaks, &inner, 1e-14, 2.0 * f64::EPSILON);
             value += cosine * integral.value;
-            error += cosine.abs() * (integral.error + 2.0 * f64::EPSILON * magnitude.get());
+            error += cosine.abs() * (integral.error + noise.get());
         }
     }
     Bounded {

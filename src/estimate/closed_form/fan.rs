@@ -138,7 +138,8 @@ impl StripLine {
         let r2_squared = rho2 * rho2 + z2 * z2;
         let scale = r1_squared * r2_squared;
         if scale > 0.0 {
-            length * self.distance * (rho1 * z2 + rho2 * z1) / scale
+            // A difference of two squared sines; rounding next to the receiver must not exceed it.
+            (length * self.distance * (rho1 * z2 + rho2 * z1) / scale).min(1.0)
         } else {
             0.0
         }

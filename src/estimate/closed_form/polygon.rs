@@ -6,7 +6,7 @@
 //!
 //! | parameter | meaning | unit |
 //! |---|---|---|
-//! | `vertices` | corners relative to the receiver, in order; planar, simple, convex or not | m |
+//! | `vertices` | corners relative to the receiver, in order; planar, simple, convex or not (to be checked by the caller) | m |
 //! | `normal` | receiver's normal, any length | 1 |
 //!
 //! Lambert, Photometria (1760), theorem 16; in this form Arvo, Analytic Methods for Simulated Light Transport (1995). The front of a polygon is
@@ -19,7 +19,7 @@
 use super::fan::{Acceptance, StripLine, StripPoint, integrate_azimuth};
 use super::frame::{Frame, power_of_two_scale, triple};
 use crate::math::DVec3;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Largest estimated relative rounding error with which the sum over edges is accepted.
 pub(super) const MAX_ROUNDING: f64 = 1e-11;
@@ -35,7 +35,8 @@ pub fn polygon(vertices: &[DVec3], normal: DVec3) -> f64 {
 
 /// Projected solid angle, sr, of a polygon that emits to both sides.
 pub fn polygon_two_sided(vertices: &[DVec3], normal: DVec3) -> f64 {
-    LocalPolygon::new(vertices, normal).map_or(0.0, |polygon| polygon.above_horizon().max(0.0))
+    LocalPolygon::new(vertices, normal)
+        .map_or(0.0, |polygon| polygon.above_horizon().clamp(0.0, PI))
 }
 
 /// Whether the receiver is in front of a polygon, or in its plane.
@@ -149,12 +150,7 @@ impl LocalPolygon {
                 clipped.push(a);
             }
             if (a.z > 0.0 && b.z < 0.0) || (a.z < 0.0 && b.z > 0.0) {
-                let t = a.z / (a.z - b.z);
-                clipped.push(DVec3::new(
-                    a.x + (b.x - a.x) * t,
-                    a.y + (b.y - a.y) * t,
-                    0.0,
-                ));
+                clipped.push(between(a, b, a.z, b.z).with_z(0.0));
             }
         }
         clipped
@@ -213,7 +209,7 @@ impl LocalPolygon {
                 a.y.atan2(a.x)
             });
             if (a.z > 0.0) != (b.z > 0.0) {
-                let p = da + (db - da) * (a.z / (a.z - b.z));
+                let p = between(da, db, a.z, b.z);
                 breaks.push(if first.x > 0.0 { at(p) } else { p.y.atan2(p.x) });
             }
         }
@@ -244,7 +240,7 @@ impl LocalPolygon {
                 if (ya > 0.0) == (yb > 0.0) {
                     continue;
                 }
-                let p = a + (b - a) * (ya / (ya - yb));
+                let p = between(a, b, ya, yb);
                 ends.push((p.x * cos + p.y * sin) * across.z - p.z * across.rho);
             }
             ends.sort_by(f64::total_cmp);
@@ -252,9 +248,19 @@ impl LocalPolygon {
                 .chunks_exact(2)
                 .map(|pair| line.chord(pair[0], pair[1], acceptance))
                 .sum();
-            if sum.is_finite() { sum } else { 0.0 }
+            if sum.is_finite() { sum.min(1.0) } else { 0.0 }
         };
         integrate_azimuth(breaks, &strip).value
+    }
+}
+
+/// The point between `a` and `b` where a linear function with the values `at_a` and `at_b` vanishes; from the nearer end, so that
+/// a long edge does not spoil the precision of its other end.
+fn between(a: DVec3, b: DVec3, at_a: f64, at_b: f64) -> DVec3 {
+    if at_a.abs() <= at_b.abs() {
+        a + (b - a) * (at_a / (at_a - at_b))
+    } else {
+        b + (a - b) * (at_b / (at_b - at_a))
     }
 }
 

@@ -32,7 +32,7 @@ pub fn polygon_in_cone(vertices: &[DVec3], normal: DVec3, half_angle_rad: f64) -
         return 0.0;
     };
     if acceptance.cos == 0.0 {
-        return polygon.above_horizon().max(0.0);
+        return polygon.above_horizon().clamp(0.0, PI);
     }
     if polygon.height == 0.0 {
         let inside = polygon.contains_direction(DVec3::ZERO);
@@ -42,7 +42,9 @@ pub fn polygon_in_cone(vertices: &[DVec3], normal: DVec3, half_angle_rad: f64) -
             0.0
         };
     }
-    polygon.accepted(acceptance).max(0.0)
+    polygon
+        .accepted(acceptance)
+        .clamp(0.0, PI * acceptance.sin * acceptance.sin)
 }
 
 impl LocalPolygon {

@@ -104,10 +104,11 @@ fn gauss_kronrod(f: &dyn Fn(usize, f64) -> f64, piece: usize, range: Range<f64>)
 }
 
 /// Integral of `f(piece, u)` over u from 0 to 1, summed over `pieces` pieces.
-pub(super) fn integrate_pieces(
+fn integrate_pieces(
     pieces: usize,
     f: &dyn Fn(usize, f64) -> f64,
     rel_tol: f64,
+    abs_tol: f64,
 ) -> Integral {
     let mut panels: Vec<Panel> = (0..pieces)
         .map(|piece| gauss_kronrod(f, piece, 0.0..1.0))
@@ -126,7 +127,7 @@ pub(super) fn integrate_pieces(
                 error: 0.0,
             };
         };
-        if error <= rel_tol * value.abs() || panels.len() >= MAX_PANELS {
+        if error <= abs_tol.max(rel_tol * value.abs()) || panels.len() >= MAX_PANELS {
             return Integral { value, error };
         }
         let Range { start, end } = panels[worst].range.clone();
@@ -143,6 +144,16 @@ pub(super) fn integrate_pieces(
 /// Integral of `f` from the first to the last break, which are in ascending order. Between breaks `f` may start and end like a
 /// square root: the substitution u²(3 − 2u) makes that smooth.
 pub(super) fn integrate_between(breaks: &[f64], f: &dyn Fn(f64) -> f64, rel_tol: f64) -> Integral {
+    integrate_to(breaks, f, rel_tol, 0.0)
+}
+
+/// The same, ended as well at an absolute tolerance: the rounding noise of an integrand with cancellation.
+pub(super) fn integrate_to(
+    breaks: &[f64],
+    f: &dyn Fn(f64) -> f64,
+    rel_tol: f64,
+    abs_tol: f64,
+) -> Integral {
     let mapped = |piece: usize, u: f64| {
         let width = breaks[piece + 1] - breaks[piece];
         // From the nearer end, so that a distance to the end keeps its relative precision.
@@ -154,5 +165,5 @@ pub(super) fn integrate_between(breaks: &[f64], f: &dyn Fn(f64) -> f64, rel_tol:
         };
         f(x) * width * 6.0 * u * (1.0 - u)
     };
-    integrate_pieces(breaks.len().saturating_sub(1), &mapped, rel_tol)
+    integrate_pieces(breaks.len().saturating_sub(1), &mapped, rel_tol, abs_tol)
 }

@@ -15,7 +15,7 @@
 //!
 //! K is the part above the horizon of a cap whose centre is as far below it as the true one is above. The three terms cancel to fifth
 //! order for a thin sliver; they are regrouped with B(x) = atan x − x + x³/3, which is small by itself. The unregrouped form: Howell,
-//! A Catalog of Radiation Heat Transfer Configuration Factors, B-43 (Naraghi 1988).
+//! A Catalog of Radiation Heat Transfer Configuration Factors (element to sphere, three cases).
 
 use super::fan::Acceptance;
 use super::frame::{Frame, dot, power_of_two_scale, unit};

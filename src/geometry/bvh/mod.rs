@@ -113,7 +113,11 @@ impl Bvh {
                 }
             } else {
                 let node = &self.nodes[child as usize];
-                stack.extend((0..8).filter(|&lane| node.support(lane, normal) > offset).map(|lane| node.child[lane]));
+                stack.extend(
+                    (0..8)
+                        .filter(|&lane| node.support(lane, normal) > offset)
+                        .map(|lane| node.child[lane]),
+                );
             }
         }
         false
@@ -145,6 +149,10 @@ impl Bvh {
     }
 
     fn packet(&self, child: u32) -> Option<&Packet> {
-        if child & node::LEAF == 0 { None } else { self.packets.get((child & !node::LEAF) as usize) }
+        if child & node::LEAF == 0 {
+            None
+        } else {
+            self.packets.get((child & !node::LEAF) as usize)
+        }
     }
 }

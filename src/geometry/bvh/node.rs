@@ -17,8 +17,17 @@ pub(super) struct Node {
 
 impl Node {
     /// A node without children.
-    pub(super) const EMPTY: Node =
-        Node { bounds: [[f32::INFINITY; 8], [f32::INFINITY; 8], [f32::INFINITY; 8], [f32::NEG_INFINITY; 8], [f32::NEG_INFINITY; 8], [f32::NEG_INFINITY; 8]], child: [0; 8] };
+    pub(super) const EMPTY: Node = Node {
+        bounds: [
+            [f32::INFINITY; 8],
+            [f32::INFINITY; 8],
+            [f32::INFINITY; 8],
+            [f32::NEG_INFINITY; 8],
+            [f32::NEG_INFINITY; 8],
+            [f32::NEG_INFINITY; 8],
+        ],
+        child: [0; 8],
+    };
 
     /// Puts a child into a lane.
     pub(super) fn set(&mut self, lane: usize, min: [f32; 3], max: [f32; 3], child: u32) {
@@ -34,7 +43,12 @@ impl Node {
         if self.bounds[0][lane] > self.bounds[3][lane] {
             return f64::NEG_INFINITY;
         }
-        (0..3).map(|axis| normal[axis] * f64::from(self.bounds[if normal[axis] > 0.0 { axis + 3 } else { axis }][lane])).sum()
+        (0..3)
+            .map(|axis| {
+                normal[axis]
+                    * f64::from(self.bounds[if normal[axis] > 0.0 { axis + 3 } else { axis }][lane])
+            })
+            .sum()
     }
 }
 
@@ -50,7 +64,10 @@ pub(super) struct Packet {
 
 impl Packet {
     /// A packet without triangles.
-    pub(super) const EMPTY: Packet = Packet { vertex: [[[f32::NAN; 8]; 3]; 3], triangle: [u32::MAX; 8] };
+    pub(super) const EMPTY: Packet = Packet {
+        vertex: [[[f32::NAN; 8]; 3]; 3],
+        triangle: [u32::MAX; 8],
+    };
 
     /// Puts a triangle into a lane.
     pub(super) fn set(&mut self, lane: usize, corners: [[f32; 3]; 3], triangle: u32) {
@@ -65,7 +82,12 @@ impl Packet {
     /// Whether a vertex of a triangle has `normal . v > offset`.
     pub(super) fn any_vertex_beyond(&self, normal: [f64; 3], offset: f64) -> bool {
         self.vertex.iter().any(|rows| {
-            (0..8).any(|lane| (0..3).map(|axis| normal[axis] * f64::from(rows[axis][lane])).sum::<f64>() > offset)
+            (0..8).any(|lane| {
+                (0..3)
+                    .map(|axis| normal[axis] * f64::from(rows[axis][lane]))
+                    .sum::<f64>()
+                    > offset
+            })
         })
     }
 }

@@ -1,9 +1,11 @@
 //! Solid angles, directional weights, pairs of surfaces and averages: against each other and against closed forms.
 
 use super::super::aperture::{Aperture, aperture_average};
-use super::super::{cone, directional, disc, exchange, point, polygon};
+use super::super::polygon_in_cone::polygon_in_cone;
+use super::super::{cone, directional, disc, exchange, point, polygon, sphere};
 use super::close;
 use crate::math::DVec3;
+use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 #[test]
@@ -173,4 +175,46 @@ fn averages_over_a_disc_reproduce_coaxial_discs_and_give_up_on_noise() {
     assert_eq!(aperture_average(aperture, &noisy, 1e-9), None);
     let constant = aperture_average(aperture, &|_| 3.0, 1e-12).unwrap();
     assert!(close(constant.value, 3.0, 1e-14));
+}
+
+/// Numbers that meet: small integers, tiny and huge values.
+fn awkward() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        6 => (-2..=2_i32).prop_map(f64::from),
+        1 => (-2..=2_i32).prop_map(|k| f64::from(k) * 1e-16),
+        1 => (-2..=2_i32).prop_map(|k| f64::from(k) * 1e-200),
+        1 => (-2..=2_i32).prop_map(|k| f64::from(k) * 1e150),
+        1 => Just(f64::INFINITY),
+    ]
+}
+
+fn awkward_vector() -> impl Strategy<Value = DVec3> {
+    (awkward(), awkward(), awkward()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 500, ..ProptestConfig::default() })]
+
+    #[test]
+    fn awkward_numbers_give_values_between_zero_and_pi(a in awkward_vector(), b in awkward_vector(), c in awkward_vector(),
+                                                      d in awkward_vector(), n in awkward_vector(), r in awkward(), beta in 0.0..1.6_f64) {
+        for value in [
+            polygon::polygon_two_sided(&[a, b, c], n),
+            polygon::polygon_two_sided(&[a, b, c, d], n),
+            polygon::polygon(&[a, b, c], n),
+            polygon_in_cone(&[a, b, c], n, beta),
+            polygon_in_cone(&[a, b, c, d], n, beta),
+            disc::disc_two_sided(a, b, r, n),
+            disc::disc_in_cone(a, b, r, n, beta),
+            sphere::sphere(a, r, n),
+            sphere::sphere_in_cone(a, r, n, beta),
+            cone::half_space_in_cone(a, n, beta),
+            0.25 * point::parallelogram_solid_angle(a, b, c),
+            0.5 * point::disc_solid_angle(r, a.x, a.y),
+        ] {
+            prop_assert!((0.0..=PI * (1.0 + 1e-9)).contains(&value), "{value:e}");
+        }
+        prop_assert!(point::irradiance_factor(a, n) >= 0.0);
+        prop_assert!(exchange::coaxial_discs(r, a.x, a.y) >= 0.0);
+    }
 }

@@ -331,3 +331,52 @@ fn an_element_on_a_large_emitter_receives_pi() {
 fn tilted_by(angle: f64) -> DVec3 {
     DVec3::new(angle.sin(), 0.0, angle.cos())
 }
+
+#[test]
+fn caps_in_cones_agree_with_a_sum_over_polar_angle() {
+    for (alpha, tilt, beta) in [
+        (0.3, 0.5_f64, 0.4),
+        (0.9, 0.2, 0.8),
+        (0.05, 0.1, 0.08),
+        (1.3, 1.5, 1.2),
+    ] {
+        let steps = 400_000;
+        let mut sum = 0.0;
+        for k in 0..steps {
+            let theta = (k as f64 + 0.5) * beta / f64::from(steps);
+            let cosine = (f64::cos(alpha) - theta.cos() * tilt.cos()) / (theta.sin() * tilt.sin());
+            sum += 2.0 * cosine.clamp(-1.0, 1.0).acos() * theta.sin() * theta.cos();
+        }
+        sum *= beta / f64::from(steps);
+        let value = sphere::cap_in_cone(alpha, tilt, beta);
+        assert!(close(value, sum, 1e-6), "{alpha} {tilt}: {value} {sum}");
+    }
+}
+
+#[test]
+fn a_disc_cut_by_the_horizon_agrees_with_its_contour() {
+    for (c, t, r) in [
+        (DVec3::new(0.1, 0.3, 0.2), 1.4_f64, 1.0),
+        (DVec3::new(0.0, 0.0, 1e-3), 1.0, 0.5),
+        (DVec3::new(3.0, -1.0, 1.0), 1.9, 2.7),
+    ] {
+        let n = tilted_by(t);
+        // The chord is parallel to y, the arc runs over |ψ| < end with x = r cos ψ.
+        let end = (-n.dot(c) / (r * t.sin())).acos();
+        let rim = |psi: f64| c + DVec3::new(r * psi.cos(), r * psi.sin(), 0.0);
+        let steps = 2_000_000;
+        let mut arc = 0.0;
+        for k in 0..steps {
+            let psi = end * (2.0 * (f64::from(k) + 0.5) / f64::from(steps) - 1.0);
+            let p = rim(psi);
+            let tangent = DVec3::new(-r * psi.sin(), r * psi.cos(), 0.0);
+            arc += n.dot(p.cross(tangent)) / p.length_squared() * 2.0 * end / f64::from(steps);
+        }
+        let (a, b) = (rim(end), rim(-end));
+        let w = a.cross(b);
+        let chord = w.length().atan2(a.dot(b)) * w.dot(n) / w.length();
+        let expected = 0.5 * (arc + chord);
+        let value = disc::disc(c, -DVec3::Z, r, n);
+        assert!(close(value, expected, 1e-9), "{value} {expected}");
+    }
+}

@@ -1,5 +1,7 @@
 //! Tests of the closed forms: reference cases, and laws with free parameters.
 
+#![allow(clippy::unwrap_used)]
+
 mod composites;
 mod laws;
 mod reference;

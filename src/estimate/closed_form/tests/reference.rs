@@ -124,7 +124,7 @@ fn point_sources() {
         }
     }
     for case in cases("g1b.point-rect-flux") {
-        // a and b are the sides or the half sides; the reference decides which reading of the text is meant.
+        // a and b are full sides, h the distance of the point.
         let (a, b, h) = (case.number("a_m"), case.number("b_m"), case.number("h_m"));
         let corner = DVec3::new(-0.5 * a, -0.5 * b, h);
         case.check(
