@@ -13,6 +13,7 @@
 //! Photons are counted with the wavelength in air for the wavelength in vacuum (n = 1), which is 0.03 % low.
 
 use super::decode::Value;
+use super::factor_range::{LARGEST, is_zero, outside_of};
 use super::reading::Reading;
 use super::spectrum_reader::{read_factor, read_spectrum, v_lambda};
 use crate::quantity::constants::{AVOGADRO_PER_MOL, K_M_LM_W, PLANCK_J_S, SPEED_OF_LIGHT_M_S};
@@ -34,8 +35,12 @@ pub(super) fn read_channel(
     let name = fields.require("name", "\"E_v\"", &mut reading.problems).and_then(|v| v.text(&mut reading.problems));
     let responsivity = fields.require("responsivity", "\"V\"", &mut reading.problems).and_then(|v| {
         let factor = read_factor(&v, Outside::Zero, reading)?;
-        let (least, largest) = factor.range_over(0.0, f64::INFINITY);
-        if largest <= 0.0 && least >= 0.0 {
+        if let Some((nm, found)) = outside_of(&factor, 0.0, LARGEST) {
+            let help = format!("allowed: 0 to {LARGEST:e} at every wavelength");
+            v.problem(&mut reading.problems, format!("the responsivity is {found} at {nm} nm"), help);
+            return None;
+        }
+        if is_zero(&factor) {
             v.problem(
                 &mut reading.problems,
                 "the responsivity is zero at every wavelength, so nothing can be read",

@@ -10,7 +10,7 @@
 //! | `decode` | values → fields, numbers, vectors, names |
 //! | `files`, `reading` | the door to files, the root, what has been read already |
 //! | `placement`, `shape_reader`, `mesh_reader`, `mesh_file` | where things are, and what shape they have |
-//! | `spectrum_reader`, `surface_reader`, `strength` | spectra, factors, surfaces, how strong a source is |
+//! | `spectrum_reader`, `factor_range`, `surface_reader`, `strength` | spectra, factors, surfaces, how strong a source is |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `directional_table` | sensor files |
 //! | `reader` | the scene as a whole |
@@ -22,6 +22,7 @@ mod decode;
 pub mod diagnostic;
 mod directional_table;
 pub mod document;
+mod factor_range;
 pub mod files;
 pub mod instrument;
 mod instrument_reader;

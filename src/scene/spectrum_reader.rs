@@ -21,6 +21,7 @@
 use super::decode::Value;
 use super::diagnostic::{Diagnostic, lines_of};
 use super::document::Kind;
+use super::factor_range::{LARGEST, outside_of};
 use super::files::LONGEST_CURVE_BYTES;
 use super::nearest::nearest;
 use super::reading::Reading;
@@ -226,12 +227,10 @@ fn refuse(value: &Value, what: &str, names: &str, forms: &[&str], in_library: bo
 }
 
 /// A factor that is nowhere negative.
-pub(super) fn not_negative(value: &Value, factor: Factor, reading: &mut Reading) -> Option<Factor> {
-    let least = factor.range_over(0.0, f64::INFINITY).0;
-    if least >= 0.0 {
-        return Some(factor);
-    }
-    value.problem(&mut reading.problems, format!("the factor falls to {least}"), "a filter lets 0 or more of the light through");
+fn not_negative(value: &Value, factor: Factor, reading: &mut Reading) -> Option<Factor> {
+    let Some((nm, found)) = outside_of(&factor, 0.0, LARGEST) else { return Some(factor) };
+    let help = format!("allowed: 0 to {LARGEST:e} at every wavelength");
+    value.problem(&mut reading.problems, format!("the filter is {found} at {nm} nm"), help);
     None
 }
 

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 
 use super::decode::Value;
 use super::diagnostic::Problems;
-use super::document::{Body, Kind};
+use super::document::Kind;
 use crate::geometry::shape::Shape;
 use crate::quantity::constants::K_M_LM_W;
 use crate::spectrum::{Density, Factor};
@@ -235,7 +235,7 @@ fn read_amount(value: &Value, name: &str, form: &str, given: Given, problems: &m
             let numbers = keyed(&[key, "at_m"], problems)?;
             Some((numbers[0], numbers[1]))
         }
-        Given::Exitance if !matches!(value.node.kind, Kind::Struct { body: Body::Positional(ref items), .. } if items.len() == 1) => {
+        Given::Exitance => {
             let key = if name == "Exitance" { "watts_per_m2" } else { "lumens_per_m2" };
             Some((keyed(&[key], problems)?[0], 1.0))
         }

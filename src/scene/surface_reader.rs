@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::decode::Value;
 use super::document::Kind;
+use super::factor_range::outside_of;
 use super::nearest::nearest;
 use super::reading::Reading;
 use super::spectrum_reader::read_factor;
@@ -80,17 +81,12 @@ fn read_surface(name: &str, value: &Value, reading: &mut Reading) -> Option<Surf
         _ => {
             let item = value.positional(1, "Lambertian(0.85)", &mut reading.problems)?.into_iter().next()?;
             let reflectance = read_factor(&item, Outside::Hold, reading)?;
-            let (least, largest) = reflectance.range_over(0.0, f64::INFINITY);
-            if largest > 1.0 {
-                item.problem(
-                    &mut reading.problems,
-                    format!("the reflectance reaches {largest}, more than all light"),
-                    "allowed: 0 to 1 at every wavelength (percent are written as 0.85, not 85)",
-                );
-                return None;
-            }
-            if least < 0.0 {
-                item.problem(&mut reading.problems, format!("the reflectance falls to {least}"), "allowed: 0 to 1 at every wavelength");
+            if let Some((nm, found)) = outside_of(&reflectance, 0.0, 1.0) {
+                let constant = matches!(reflectance, Factor::Constant(_));
+                let place = if constant { String::new() } else { format!(" at {nm} nm") };
+                let excess = if found > 1.0 { ", more than all light" } else { "" };
+                let help = "allowed: 0 to 1 at every wavelength (85 % is written 0.85)";
+                item.problem(&mut reading.problems, format!("the reflectance is {found}{place}{excess}"), help);
                 return None;
             }
             Some(Surface { name: name.into(), reflectance })
