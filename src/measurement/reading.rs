@@ -163,7 +163,7 @@ fn read(instrument: &Instrument, index: usize, c: usize, pose: &PoseEstimate, es
         };
         notes.push(format!("reads zero: {why}"));
     }
-    if !pose.target_met {
+    if !pose.target_met && value != 0.0 {
         notes.push("the target was not met within the samples or the time allowed".to_owned());
     }
     Reading {

@@ -6,12 +6,14 @@ use std::fmt::Write;
 
 use crate::estimate::Counters;
 use crate::measurement::{Measurement, Reading};
-use crate::metrology::EvaluationKind;
+use crate::metrology::{BudgetRow, EvaluationKind};
 use crate::metrology::rounding::{Rounded, format_significant};
 use crate::scene::Layout;
 
 /// Below this relative uncertainty a value is exact for a reader, and more digits would only be noise to the eye.
 const EXACT: f64 = 1e-9;
+/// Rows of a budget below this share of the whole are summed up.
+const SMALL: f64 = 0.01;
 /// Largest map of a grid.
 const MAP: [usize; 2] = [12, 10];
 /// Up to so many readings the budget of each is written out.
@@ -194,11 +196,19 @@ fn write_budget(r: &Reading, out: &mut String) -> std::fmt::Result {
     }
     let index = if r.layout == Layout::Single { String::new() } else { format!(" [{}]", r.index) };
     writeln!(out, "  uncertainty of {}{index}, {}, in {}", r.instrument, r.measurand.name(), r.measurand.unit())?;
-    for row in &r.budget.rows {
+    let combined = r.standard_uncertainty();
+    let (large, small): (Vec<&BudgetRow>, Vec<&BudgetRow>) =
+        r.budget.rows.iter().partition(|row| row.standard_uncertainty >= SMALL * combined && row.standard_uncertainty > 0.0);
+    for row in large {
         let freedom = if row.degrees_of_freedom.is_finite() { format!("ν = {:.0}", row.degrees_of_freedom) } else { String::new() };
         writeln!(out, "    {}  {:>9}  {:<7} {}", row.kind.letter(), format_significant(row.standard_uncertainty, 2), freedom, row.source)?;
     }
-    writeln!(out, "       {:>9}          combined standard uncertainty\n", format_significant(r.standard_uncertainty(), 2))
+    let rest = small.iter().map(|row| row.standard_uncertainty).fold(0.0, f64::hypot);
+    if rest > 0.0 {
+        let rows = if small.len() == 1 { "one row".to_owned() } else { format!("{} rows", small.len()) };
+        writeln!(out, "       {:>9}          {rows} below 1 % of the whole", format_significant(rest, 2))?;
+    }
+    writeln!(out, "       {:>9}          combined standard uncertainty\n", format_significant(combined, 2))
 }
 
 fn write_notes(m: &Measurement, out: &mut String) -> std::fmt::Result {
