@@ -155,11 +155,16 @@ fn read(instrument: &Instrument, index: usize, c: usize, pose: &PoseEstimate, es
     });
     let mut notes = Vec::new();
     if value == 0.0 {
-        let why = match (left_out.reasons.is_empty(), budget.combined_standard_uncertainty() > 0.0) {
-            (false, false) => left_out.reasons.join("; "),
-            (_, true) => "no light was found; the uncertainty is the upper bound of what may have been missed".to_owned(),
-            (true, false) if estimate.exact.terms + estimate.sampled.len() == 0 => "the scene has no source".to_owned(),
-            (true, false) => "no source shows the sensor an emitting side above its horizon".to_owned(),
+        let why = if budget.combined_standard_uncertainty() > 0.0 {
+            "no light was found; the uncertainty is the upper bound of what may have been missed".to_owned()
+        } else {
+            let mut reasons = left_out.reasons.clone();
+            if estimate.exact.terms + estimate.sampled.len() > 0 {
+                reasons.push("in this pose nothing that is computed reaches the sensor from above its horizon, in its acceptance and in its band".to_owned());
+            } else if reasons.is_empty() {
+                reasons.push("the scene has no source".to_owned());
+            }
+            reasons.join("; ")
         };
         notes.push(format!("reads zero: {why}"));
     }

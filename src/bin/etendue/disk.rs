@@ -45,5 +45,24 @@ impl Files for Disk {
 
 /// Reads a scene, or says everything that is wrong with it.
 pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
-    read_scene(path, &Disk, root).map_err(|problems| Failure::Input(problems.to_string()))
+    let path = match root {
+        None => through_scenes_folder(path),
+        Some(_) => path.to_owned(),
+    };
+    read_scene(&path, &Disk, root).map_err(|problems| Failure::Input(problems.to_string()))
+}
+
+/// The path by way of the folder `scenes` in which the program runs, if it does: `bench.ron` becomes `../scenes/bench.ron`.
+///
+/// The library sees names only. Without this a scene could not reach the `sensors` beside its folder when it is named from within.
+fn through_scenes_folder(path: &str) -> String {
+    if Path::new(path).is_absolute() || Path::new(path).components().any(|c| c.as_os_str() == "scenes" || c.as_os_str() == "..") {
+        return path.to_owned();
+    }
+    let Ok(here) = std::env::current_dir() else { return path.to_owned() };
+    let folders: Vec<_> = here.iter().map(|part| part.to_string_lossy()).collect();
+    match folders.iter().rposition(|part| part == "scenes") {
+        Some(at) => format!("{}{}/{path}", "../".repeat(folders.len() - at), folders[at..].join("/")),
+        None => path.to_owned(),
+    }
 }
