@@ -15,12 +15,12 @@ use crate::math::frame::tangents;
 /// A rectangle or a disc, prepared.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Flat {
-    element: u32,
-    centre: DVec3,
+    pub(super) element: u32,
+    pub(super) centre: DVec3,
     pub(super) normal: DVec3,
     /// u/|u|² and v/|v|²: they turn a point of the plane into parameters.
-    u: DVec3,
-    v: DVec3,
+    pub(super) u: DVec3,
+    pub(super) v: DVec3,
 }
 
 impl Flat {

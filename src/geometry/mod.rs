@@ -5,11 +5,12 @@
 //! | `shape.rs` | rectangle, disc, sphere, mesh, placed in the world |
 //! | `world.rs` | all shapes of a scene: which one does a ray meet first, is the way clear |
 //! | `rays.rs` | blocks of rays that are traced in lockstep |
-//! | `flats.rs`, `balls.rs` | intersection of blocks with plane shapes and spheres, in double precision |
+//! | `flats.rs`, `balls.rs`, `blocks.rs` | blocks of rays against plane shapes, spheres and boxes, in double precision |
 //! | `mesh/` | triangle meshes |
 //! | `bvh/` | the bounding volume hierarchy of a mesh |
 
 pub mod balls;
+pub mod blocks;
 pub mod bvh;
 pub mod flats;
 pub mod mesh;

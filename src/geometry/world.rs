@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use super::balls::{self, Ball};
+use super::blocks::{self, Block};
 use super::flats::{self, Flat};
 use super::mesh::Mesh;
 use super::rays::{COINCIDENT, Hits, LANES, NONE, Rays};
@@ -17,7 +18,10 @@ use crate::math::DVec3;
 /// The shapes of a scene, prepared for rays.
 #[derive(Clone, Debug, Default)]
 pub struct World {
+    /// Every rectangle; those that enclose a box are met as `blocks`, the rest as `loose`.
     rectangles: Vec<Flat>,
+    loose: Vec<Flat>,
+    blocks: Vec<Block>,
     discs: Vec<Flat>,
     balls: Vec<Ball>,
     meshes: Vec<(u32, Arc<Mesh>)>,
@@ -71,7 +75,25 @@ impl World {
                 }
             });
         }
+        world.find_blocks();
         world
+    }
+
+    /// Sorts the rectangles into boxes, of which six in a row may be one, and others.
+    fn find_blocks(&mut self) {
+        let mut rest = self.rectangles.as_slice();
+        while let Some(first) = rest.first() {
+            match rest.first_chunk::<6>().and_then(Block::of) {
+                Some(block) => {
+                    self.blocks.push(block);
+                    rest = &rest[6..];
+                }
+                None => {
+                    self.loose.push(*first);
+                    rest = &rest[1..];
+                }
+            }
+        }
     }
 
     /// Whether there is nothing to meet.
@@ -91,7 +113,8 @@ impl World {
     #[must_use]
     pub fn closest(&self, rays: &Rays) -> Hits {
         let mut hits = Hits::nothing(rays);
-        flats::nearest::<false>(&self.rectangles, rays, &mut hits);
+        flats::nearest::<false>(&self.loose, rays, &mut hits);
+        blocks::nearest(&self.blocks, rays, &mut hits);
         flats::nearest::<true>(&self.discs, rays, &mut hits);
         balls::nearest(&self.balls, rays, &mut hits);
         for (element, mesh) in &self.meshes {
@@ -117,7 +140,8 @@ impl World {
     #[must_use]
     pub fn blocked(&self, rays: &Rays) -> [bool; LANES] {
         let mut blocked = [false; LANES];
-        flats::cut::<false>(&self.rectangles, rays, &mut blocked);
+        flats::cut::<false>(&self.loose, rays, &mut blocked);
+        blocks::cut(&self.blocks, rays, &mut blocked);
         flats::cut::<true>(&self.discs, rays, &mut blocked);
         balls::cut(&self.balls, rays, &mut blocked);
         for (element, mesh) in &self.meshes {
@@ -152,3 +176,6 @@ impl World {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
