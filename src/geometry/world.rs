@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::balls::{self, Ball};
-use super::flats::{self, Flat};
+use super::flats::{self, Flat, Outline};
 use super::mesh::Mesh;
 use super::rays::{COINCIDENT, Hits, LANES, NONE, Rays};
 use super::shape::Shape;
@@ -18,6 +18,7 @@ use crate::math::DVec3;
 #[derive(Clone, Debug, Default)]
 pub struct World {
     rectangles: Vec<Flat>,
+    polygons: Vec<Outline>,
     discs: Vec<Flat>,
     balls: Vec<Ball>,
     meshes: Vec<(u32, Arc<Mesh>)>,
@@ -28,6 +29,7 @@ pub struct World {
 #[derive(Clone, Copy, Debug)]
 enum Place {
     Rectangle(usize),
+    Polygon(usize),
     Disc(usize),
     Ball(usize),
     Mesh(usize),
@@ -56,6 +58,10 @@ impl World {
                 Some(Shape::Rectangle(r)) => {
                     world.rectangles.push(Flat::rectangle(element, r));
                     Place::Rectangle(world.rectangles.len() - 1)
+                }
+                Some(Shape::Polygon(p)) => {
+                    world.polygons.push(Outline::new(element, p));
+                    Place::Polygon(world.polygons.len() - 1)
                 }
                 Some(Shape::Disc(d)) => {
                     world.discs.push(Flat::disc(element, d));
@@ -93,6 +99,7 @@ impl World {
         let mut hits = Hits::nothing(rays);
         flats::nearest::<false>(&self.rectangles, rays, &mut hits);
         flats::nearest::<true>(&self.discs, rays, &mut hits);
+        flats::nearest_outline(&self.polygons, rays, &mut hits);
         balls::nearest(&self.balls, rays, &mut hits);
         for (element, mesh) in &self.meshes {
             for lane in 0..LANES {
@@ -119,6 +126,7 @@ impl World {
         let mut blocked = [false; LANES];
         flats::cut::<false>(&self.rectangles, rays, &mut blocked);
         flats::cut::<true>(&self.discs, rays, &mut blocked);
+        flats::cut_outline(&self.polygons, rays, &mut blocked);
         balls::cut(&self.balls, rays, &mut blocked);
         for (element, mesh) in &self.meshes {
             for lane in 0..LANES {
@@ -142,6 +150,7 @@ impl World {
         let point = origin + direction * t;
         match self.places[element as usize] {
             Place::Rectangle(i) => SurfacePoint { point, normal: self.rectangles[i].normal },
+            Place::Polygon(i) => SurfacePoint { point, normal: self.polygons[i].flat.normal },
             Place::Disc(i) => SurfacePoint { point, normal: self.discs[i].normal },
             Place::Ball(i) => SurfacePoint { point, normal: (point - self.balls[i].centre).normalize() },
             Place::Mesh(i) => {
