@@ -83,7 +83,7 @@ fn edges_rad(scene: &Scene, elements: &[(usize, Side)], at: DVec3, normal: DVec3
         .flat_map(|&(e, _)| {
             let angle = |to: DVec3| normal.cross(to).length().atan2(normal.dot(to));
             match &scene.elements[e].shape {
-                Shape::Rectangle(r) => r.corners().map(|c| angle(c - at)).to_vec(),
+                shape if shape.corners().is_some() => shape.corners().into_iter().flatten().map(|c| angle(c - at)).collect(),
                 shape => {
                     let (centre, radius) = shape.bounding_sphere();
                     let half = (radius / (centre - at).length()).min(1.0).asin();
@@ -98,7 +98,8 @@ fn edges_rad(scene: &Scene, elements: &[(usize, Side)], at: DVec3, normal: DVec3
 
 fn over_hemisphere(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> f64 {
     match shape {
-        Shape::Rectangle(r) => polygon::polygon(&facing(r.corners().map(|c| c - at), side), normal),
+        Shape::Rectangle(r) => polygon::polygon(&facing(&r.corners(), at, side), normal),
+        Shape::Polygon(p) => polygon::polygon(&facing(p.corners(), at, side), normal),
         Shape::Disc(d) => disc::disc(d.centre - at, side.sign() * d.normal, d.radius_m, normal),
         Shape::Sphere(s) => match (side, inside(s.centre - at, s.radius_m)) {
             (Side::Front, false) => sphere::sphere(s.centre - at, s.radius_m, normal),
@@ -107,7 +108,7 @@ fn over_hemisphere(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> f64 {
         },
         Shape::Mesh(m) => (0..m.triangle_count() as u32)
             .filter_map(|t| m.triangle(t))
-            .map(|corners| polygon::polygon(&facing(corners.map(|c| c - at), side), normal))
+            .map(|corners| polygon::polygon(&facing(&corners, at, side), normal))
             .sum(),
     }
 }
@@ -117,7 +118,8 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
         if polygon::receiver_in_front(corners) { polygon_in_cone::polygon_in_cone(corners, normal, half_angle_rad) } else { 0.0 }
     };
     match shape {
-        Shape::Rectangle(r) => of_polygon(&facing(r.corners().map(|c| c - at), side)),
+        Shape::Rectangle(r) => of_polygon(&facing(&r.corners(), at, side)),
+        Shape::Polygon(p) => of_polygon(&facing(p.corners(), at, side)),
         Shape::Disc(d) => {
             let front = side.sign() * d.normal;
             if disc::receiver_in_front(d.centre - at, front) {
@@ -133,7 +135,7 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
         },
         Shape::Mesh(m) => (0..m.triangle_count() as u32)
             .filter_map(|t| m.triangle(t))
-            .map(|corners| of_polygon(&facing(corners.map(|c| c - at), side)))
+            .map(|corners| of_polygon(&facing(&corners, at, side)))
             .sum(),
     }
 }
@@ -143,12 +145,10 @@ fn inside(centre: DVec3, radius_m: f64) -> bool {
     centre.length() <= radius_m * (1.0 + 1e-12)
 }
 
-/// Corners in the order that shows the emitting side counter-clockwise.
-fn facing<const N: usize>(mut corners: [DVec3; N], side: Side) -> [DVec3; N] {
-    if side == Side::Back {
-        corners.reverse();
-    }
-    corners
+/// Corners relative to a receiver, in the order that shows the emitting side counter-clockwise.
+fn facing(corners: &[DVec3], at: DVec3, side: Side) -> Vec<DVec3> {
+    let relative = corners.iter().map(|&c| c - at);
+    if side == Side::Back { relative.rev().collect() } else { relative.collect() }
 }
 
 /// Formulas for the aperture as a whole: a cosine receptor only.
@@ -188,14 +188,15 @@ fn whole_aperture(scene: &Scene, sensor: &Sensor, pose: &Pose, source: &Source) 
             let coaxial = pose.normal.cross(to).length() <= 1e-12 * size && (facing + pose.normal).length() <= 1e-12 && height > 0.0;
             coaxial.then(|| Bounded { value: exchange::coaxial_discs(radius_m, d.radius_m, height) / area, error: 0.0 })
         }
-        (Shape::Rectangle(r), Aperture::Rectangle { half_width_m, half_height_m }) => {
+        (shape @ (Shape::Rectangle(_) | Shape::Polygon(_)), Aperture::Rectangle { half_width_m, half_height_m }) => {
             let (u, v) = (half_width_m * pose.x_axis, half_height_m * pose.y_axis());
             let receiver = [-u - v, u - v, u + v, v - u];
-            let emitter = r.corners().map(|c| c - pose.at);
+            let emitter = facing(&shape.corners()?, pose.at, Side::Front);
+            let (point, front) = shape.plane()?;
             // Each wholly on the facing side of the other; a common edge is allowed.
             let size = emitter.iter().map(|c| c.length()).fold(0.0, f64::max);
             let ahead = |points: &[DVec3], origin: DVec3, normal: DVec3| points.iter().all(|p| normal.dot(*p - origin) >= -1e-12 * size);
-            if !(ahead(&emitter, DVec3::ZERO, pose.normal) && ahead(&receiver, r.centre - pose.at, side.sign() * r.normal())) {
+            if !(ahead(&emitter, DVec3::ZERO, pose.normal) && ahead(&receiver, point - pose.at, side.sign() * front)) {
                 return None;
             }
             let etendue = exchange::polygons(&emitter, &receiver, TOLERANCE)?;

@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | point | one connection | cosθ_r / r² |
 //! | parallel light | one connection | cosθ_r |
-//! | rectangle, disc, mesh | 1/A over the area | A cosθ_r cosθ_s / r² |
+//! | rectangle, polygon, disc, mesh | 1/A over the area | A cosθ_r cosθ_s / r² |
 //! | sphere from outside | 1/Ω over its cone | Ω cosθ_r |
 //! | sphere from inside | 1/A over the area | A cosθ_r cosθ_s / r² |
 //!
@@ -18,6 +18,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use crate::geometry::mesh::Mesh;
+use crate::geometry::polygon::Polygon;
 use crate::geometry::rays::NONE;
 use crate::geometry::shape::{Shape, Side};
 use crate::math::DVec3;
@@ -34,6 +35,7 @@ enum Piece {
     Parallel { travels: DVec3 },
     /// Rectangle: centre ± u ± v.
     Rectangle { element: u32, centre: DVec3, u: DVec3, v: DVec3, normal: DVec3, area_m2: f64 },
+    Polygon { element: u32, polygon: Polygon, normal: DVec3 },
     Disc { element: u32, centre: DVec3, u: DVec3, v: DVec3, normal: DVec3, area_m2: f64 },
     Sphere { element: u32, centre: DVec3, radius_m: f64, side: Side },
     Mesh { element: u32, mesh: Arc<Mesh>, side: Side },
@@ -136,6 +138,7 @@ fn piece(shape: &Shape, element: u32, side: Side) -> Piece {
             normal: side.sign() * r.normal(),
             area_m2: r.area_m2(),
         },
+        Shape::Polygon(p) => Piece::Polygon { element, polygon: p.clone(), normal: side.sign() * p.normal() },
         Shape::Disc(d) => {
             let (x, y) = crate::math::frame::tangents(d.normal);
             Piece::Disc {
@@ -159,6 +162,10 @@ fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
         Piece::Rectangle { element, centre, u: hu, v: hv, normal, area_m2 } => {
             let to = (*centre - x) + *hu * (2.0 * u[0] - 1.0) + *hv * (2.0 * u[1] - 1.0);
             from_area(to, *normal, *area_m2, *element, NONE)
+        }
+        Piece::Polygon { element, polygon, normal } => {
+            let to = (polygon.corners()[0] - x) + polygon.sample_by_area(u);
+            from_area(to, *normal, polygon.area_m2(), *element, NONE)
         }
         Piece::Disc { element, centre, u: hu, v: hv, normal, area_m2 } => {
             let [a, b] = sample_disc(u);

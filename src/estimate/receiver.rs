@@ -83,6 +83,7 @@ fn resting_place(scene: &Scene, pose: &Pose) -> (u32, u32) {
                 let inside = |half: DVec3| to.dot(half.normalize()).abs() <= half.length() + slack;
                 r.normal().dot(to).abs() <= slack && inside(r.half_u) && inside(r.half_v)
             }
+            Shape::Polygon(p) => (pose.at - p.nearest_point(pose.at)).length() <= slack,
             Shape::Disc(d) => {
                 let to = pose.at - d.centre;
                 d.normal.dot(to).abs() <= slack && to.length() <= d.radius_m + slack

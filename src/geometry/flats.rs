@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! t = n·(c − o) / n·d,   (a, b) = ((o + t d − c)·u/|u|², (o + t d − c)·v/|v|²)
-//! rectangle: |a| ≤ 1 and |b| ≤ 1      disc: a² + b² ≤ 1
+//! rectangle: |a| ≤ 1 and |b| ≤ 1      disc: a² + b² ≤ 1      polygon: an odd number of edges above (a, b)
 //! ```
 //!
 //! A ray that leaves a flat cannot meet it again: it is told apart by its index, so no distance has to be called small.
 
+use super::polygon::{Polygon, is_inside};
 use super::rays::{COINCIDENT, Hits, LANES, NONE, Rays};
 use super::shape::{Disc, Rectangle};
 use crate::math::DVec3;
@@ -78,6 +79,55 @@ pub(super) fn cut<const ROUND: bool>(flats: &[Flat], rays: &Rays, blocked: &mut 
                 & within
                 & (rays.leaving[lane] != flat.element)
                 & (rays.arriving[lane] != flat.element);
+        }
+    }
+}
+
+/// A polygon, prepared. Its parameters are counted from its first corner.
+#[derive(Clone, Debug)]
+pub(super) struct Outline {
+    pub(super) flat: Flat,
+    corners: Vec<[f64; 2]>,
+}
+
+impl Outline {
+    pub(super) fn new(element: u32, p: &Polygon) -> Outline {
+        let (x, y) = tangents(p.normal());
+        let first = p.corners()[0];
+        let size = p.corners().iter().map(|&c| (c - first).length()).fold(0.0, f64::max);
+        let flat = Flat { element, centre: first, normal: p.normal(), u: x / size, v: y / size };
+        let corners = p.corners().iter().map(|&c| [flat.u.dot(c - first), flat.v.dot(c - first)]).collect();
+        Outline { flat, corners }
+    }
+}
+
+/// Shortens `hits` to the nearest polygon.
+#[inline(always)]
+pub(super) fn nearest_outline(outlines: &[Outline], rays: &Rays, hits: &mut Hits) {
+    for Outline { flat, corners } in outlines {
+        for lane in 0..LANES {
+            let (t, a, b) = meet(flat, rays, lane);
+            let nearer = (t > 0.0) & (t < hits.t[lane] * (1.0 - COINCIDENT)) & (rays.leaving[lane] != flat.element);
+            if nearer && is_inside(corners, [a, b]) {
+                hits.t[lane] = t;
+                hits.element[lane] = flat.element;
+                hits.part[lane] = NONE;
+            }
+        }
+    }
+}
+
+/// Marks the lanes whose way is cut by a polygon.
+#[inline(always)]
+pub(super) fn cut_outline(outlines: &[Outline], rays: &Rays, blocked: &mut [bool; LANES]) {
+    for Outline { flat, corners } in outlines {
+        for lane in 0..LANES {
+            let (t, a, b) = meet(flat, rays, lane);
+            let before = (t > 0.0)
+                & (t < rays.t_end[lane] * (1.0 - COINCIDENT))
+                & (rays.leaving[lane] != flat.element)
+                & (rays.arriving[lane] != flat.element);
+            blocked[lane] |= before && is_inside(corners, [a, b]);
         }
     }
 }

@@ -3,6 +3,7 @@
 //! | shape | surface | its front |
 //! |---|---|---|
 //! | `Rectangle` | centre ± `half_u` ± `half_v` | the side of `half_u × half_v` |
+//! | `Polygon` | the plane figure within its corners | the side from which the corners run counter-clockwise |
 //! | `Disc` | the points within `radius_m` of the centre, in the plane of `normal` | the side of `normal` |
 //! | `Sphere` | the points at `radius_m` from the centre | the outside |
 //! | `Mesh` | triangles | the side from which the vertices run counter-clockwise |
@@ -12,6 +13,7 @@
 use std::sync::Arc;
 
 use super::mesh::Mesh;
+use super::polygon::Polygon;
 use crate::math::DVec3;
 
 /// A plane rectangle.
@@ -71,6 +73,8 @@ pub struct Sphere {
 pub enum Shape {
     /// A plane rectangle.
     Rectangle(Rectangle),
+    /// A plane polygon.
+    Polygon(Polygon),
     /// A plane disc.
     Disc(Disc),
     /// A sphere.
@@ -106,9 +110,31 @@ impl Shape {
         use std::f64::consts::PI;
         match self {
             Shape::Rectangle(r) => r.area_m2(),
+            Shape::Polygon(p) => p.area_m2(),
             Shape::Disc(d) => PI * d.radius_m * d.radius_m,
             Shape::Sphere(s) => 4.0 * PI * s.radius_m * s.radius_m,
             Shape::Mesh(m) => m.area_m2(),
+        }
+    }
+
+    /// A point of a plane shape and the unit normal of its front; `None` if it is curved or a mesh.
+    #[must_use]
+    pub fn plane(&self) -> Option<(DVec3, DVec3)> {
+        match self {
+            Shape::Rectangle(r) => Some((r.centre, r.normal())),
+            Shape::Polygon(p) => Some((p.corners()[0], p.normal())),
+            Shape::Disc(d) => Some((d.centre, d.normal)),
+            Shape::Sphere(_) | Shape::Mesh(_) => None,
+        }
+    }
+
+    /// Corners of a rectangle or polygon, counter-clockwise as seen from the front, m.
+    #[must_use]
+    pub fn corners(&self) -> Option<Vec<DVec3>> {
+        match self {
+            Shape::Rectangle(r) => Some(r.corners().to_vec()),
+            Shape::Polygon(p) => Some(p.corners().to_vec()),
+            Shape::Disc(_) | Shape::Sphere(_) | Shape::Mesh(_) => None,
         }
     }
 
@@ -117,6 +143,7 @@ impl Shape {
     pub fn bounding_sphere(&self) -> (DVec3, f64) {
         match self {
             Shape::Rectangle(r) => (r.centre, r.half_u.length().hypot(r.half_v.length())),
+            Shape::Polygon(p) => p.bounding_sphere(),
             Shape::Disc(d) => (d.centre, d.radius_m),
             Shape::Sphere(s) => (s.centre, s.radius_m),
             Shape::Mesh(m) => {
@@ -138,6 +165,11 @@ impl Shape {
         };
         match self {
             Shape::Rectangle(r) => around(r.centre, axis.dot(r.half_u).abs() + axis.dot(r.half_v).abs()),
+            Shape::Polygon(p) => p
+                .corners()
+                .iter()
+                .map(|&corner| axis.dot(corner - origin))
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at))),
             Shape::Disc(d) => around(d.centre, axis.cross(d.normal).length() * d.radius_m),
             Shape::Sphere(s) => around(s.centre, axis.length() * s.radius_m),
             Shape::Mesh(m) => {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::balls::{self, Ball};
 use super::blocks::{self, Block};
-use super::flats::{self, Flat};
+use super::flats::{self, Flat, Outline};
 use super::mesh::Mesh;
 use super::rays::{COINCIDENT, Hits, LANES, NONE, Rays};
 use super::shape::Shape;
@@ -22,6 +22,7 @@ pub struct World {
     rectangles: Vec<Flat>,
     loose: Vec<Flat>,
     blocks: Vec<Block>,
+    polygons: Vec<Outline>,
     discs: Vec<Flat>,
     balls: Vec<Ball>,
     meshes: Vec<(u32, Arc<Mesh>)>,
@@ -32,6 +33,7 @@ pub struct World {
 #[derive(Clone, Copy, Debug)]
 enum Place {
     Rectangle(usize),
+    Polygon(usize),
     Disc(usize),
     Ball(usize),
     Mesh(usize),
@@ -60,6 +62,10 @@ impl World {
                 Some(Shape::Rectangle(r)) => {
                     world.rectangles.push(Flat::rectangle(element, r));
                     Place::Rectangle(world.rectangles.len() - 1)
+                }
+                Some(Shape::Polygon(p)) => {
+                    world.polygons.push(Outline::new(element, p));
+                    Place::Polygon(world.polygons.len() - 1)
                 }
                 Some(Shape::Disc(d)) => {
                     world.discs.push(Flat::disc(element, d));
@@ -116,6 +122,7 @@ impl World {
         flats::nearest::<false>(&self.loose, rays, &mut hits);
         blocks::nearest(&self.blocks, rays, &mut hits);
         flats::nearest::<true>(&self.discs, rays, &mut hits);
+        flats::nearest_outline(&self.polygons, rays, &mut hits);
         balls::nearest(&self.balls, rays, &mut hits);
         for (element, mesh) in &self.meshes {
             for lane in 0..LANES {
@@ -143,6 +150,7 @@ impl World {
         flats::cut::<false>(&self.loose, rays, &mut blocked);
         blocks::cut(&self.blocks, rays, &mut blocked);
         flats::cut::<true>(&self.discs, rays, &mut blocked);
+        flats::cut_outline(&self.polygons, rays, &mut blocked);
         balls::cut(&self.balls, rays, &mut blocked);
         for (element, mesh) in &self.meshes {
             for lane in 0..LANES {
@@ -166,6 +174,7 @@ impl World {
         let point = origin + direction * t;
         match self.places[element as usize] {
             Place::Rectangle(i) => SurfacePoint { point, normal: self.rectangles[i].normal },
+            Place::Polygon(i) => SurfacePoint { point, normal: self.polygons[i].flat.normal },
             Place::Disc(i) => SurfacePoint { point, normal: self.discs[i].normal },
             Place::Ball(i) => SurfacePoint { point, normal: (point - self.balls[i].centre).normalize() },
             Place::Mesh(i) => {

@@ -2,10 +2,14 @@
 
 use std::f64::consts::PI;
 
+use crate::geometry::mesh::Mesh;
 use crate::geometry::shape::{Shape, Side};
 use crate::math::DVec3;
 use crate::scene::{Instrument, Pose, Scene};
 use crate::source::{Emitter, Source};
+
+/// Triangles of a mesh up to which each is held against each.
+const MOST_TRIANGLES: usize = 64;
 
 /// How far the source reaches above the plane of the aperture, m (for parallel light the cosine of incidence); at most zero when
 /// all of it is below the horizon.
@@ -25,12 +29,11 @@ pub(crate) fn highest_over_horizon(scene: &Scene, pose: &Pose, source: &Source) 
 pub(crate) fn may_emit_towards(scene: &Scene, source: &Source, at: DVec3, reach_m: f64) -> bool {
     let Emitter::Area { elements } = &source.emitter else { return true };
     elements.iter().any(|&(e, side)| {
-        let ahead = |centre: DVec3, normal: DVec3| side.sign() * normal.dot(at - centre) + reach_m > 0.0;
-        match &scene.elements[e].shape {
-            Shape::Rectangle(r) => ahead(r.centre, r.normal()),
-            Shape::Disc(d) => ahead(d.centre, d.normal),
-            Shape::Sphere(s) => side.sign() * ((at - s.centre).length() - s.radius_m) + reach_m > 0.0,
-            Shape::Mesh(_) => true,
+        let shape = &scene.elements[e].shape;
+        match (shape.plane(), shape) {
+            (Some((point, normal)), _) => side.sign() * normal.dot(at - point) + reach_m > 0.0,
+            (None, Shape::Sphere(s)) => side.sign() * ((at - s.centre).length() - s.radius_m) + reach_m > 0.0,
+            (None, _) => true,
         }
     })
 }
@@ -104,11 +107,10 @@ impl Shafts {
             .map(|e| {
                 let mut range = (f64::INFINITY, f64::NEG_INFINITY);
                 for p in &instrument.poses {
-                    let (low, high) = match &e.shape {
-                        Shape::Rectangle(r) => around(r.normal().dot(p.at - r.centre), r.normal().cross(p.normal).length() * reach),
-                        Shape::Disc(d) => around(d.normal.dot(p.at - d.centre), d.normal.cross(p.normal).length() * reach),
-                        Shape::Sphere(s) => around((p.at - s.centre).length() - s.radius_m, reach),
-                        Shape::Mesh(_) => (f64::NEG_INFINITY, f64::INFINITY),
+                    let (low, high) = match (e.shape.plane(), &e.shape) {
+                        (Some((point, normal)), _) => around(normal.dot(p.at - point), normal.cross(p.normal).length() * reach),
+                        (None, Shape::Sphere(s)) => around((p.at - s.centre).length() - s.radius_m, reach),
+                        (None, _) => (f64::NEG_INFINITY, f64::INFINITY),
                     };
                     range = (range.0.min(low), range.1.max(high));
                 }
@@ -137,11 +139,10 @@ impl Shafts {
             Emitter::Point { at } => {
                 let mut rest = elements.filter(|(e, _)| !self.unseen[*e]);
                 rest.all(|(e, element)| {
-                    let from = match &element.shape {
-                        Shape::Rectangle(r) => r.normal().dot(*at - r.centre),
-                        Shape::Disc(d) => d.normal.dot(*at - d.centre),
-                        Shape::Sphere(s) => (*at - s.centre).length() - s.radius_m,
-                        Shape::Mesh(_) => f64::NAN,
+                    let from = match (element.shape.plane(), &element.shape) {
+                        (Some((point, normal)), _) => normal.dot(*at - point),
+                        (None, Shape::Sphere(s)) => (*at - s.centre).length() - s.radius_m,
+                        (None, _) => f64::NAN,
                     };
                     self.same_side(e, &element.shape, (from, from)) || self.beside(&element.shape, *at, 0.0)
                 })
@@ -152,7 +153,7 @@ impl Shafts {
                 elements.clone().filter(|(e, _)| !self.unseen[*e]).all(|(e, element)| {
                     if e == piece {
                         return match shape {
-                            Shape::Mesh(m) => m.is_convex_closed() && side == Side::Front,
+                            Shape::Mesh(m) => (side == Side::Front && m.is_convex_closed()) || self.shows_all_of(m),
                             _ => true,
                         };
                     }
@@ -178,6 +179,26 @@ impl Shafts {
         below || (above && !matches!(shape, Shape::Sphere(_)))
     }
 
+    /// Whether no triangle of a small mesh can hide another one from a receiver: all of the mesh and all receivers are on the same side of
+    /// each triangle's plane, or in it. So it is for a plane mesh, and for a convex one seen from inside.
+    fn shows_all_of(&self, mesh: &Mesh) -> bool {
+        if mesh.triangle_count() > MOST_TRIANGLES {
+            return false;
+        }
+        let triangles: Vec<[DVec3; 3]> = (0..mesh.triangle_count() as u32).filter_map(|t| mesh.triangle(t)).collect();
+        let (low, high) = mesh.bounds();
+        // Vertices are rounded to single precision of the mesh's size.
+        let slack = 16.0 * f64::from(f32::EPSILON) * (high - low).max_element();
+        triangles.iter().enumerate().all(|(i, [a, b, c])| {
+            let normal = (*b - *a).cross(*c - *a).normalize_or_zero();
+            let others = triangles.iter().enumerate().filter(|(j, _)| *j != i).flat_map(|(_, t)| t.iter());
+            let (low, high) = others.map(|p| normal.dot(*p - *a)).fold((0.0_f64, 0.0_f64), |(low, high), at| (low.min(at), high.max(at)));
+            let receivers = normal.dot(self.centre - *a);
+            let plane = high <= slack && low >= -slack;
+            plane || (low >= -slack && receivers >= self.radius_m) || (high <= slack && receivers <= -self.radius_m)
+        })
+    }
+
     /// Whether the ball about the element stays outside the hull of the balls about receivers and source.
     fn beside(&self, shape: &Shape, source_centre: DVec3, source_radius_m: f64) -> bool {
         let (centre, radius) = shape.bounding_sphere();
@@ -201,26 +222,20 @@ fn around(middle: f64, half: f64) -> (f64, f64) {
 
 /// Lowest and highest distance of the emitter from the plane of a flat occluder, or from a sphere's surface, m.
 fn span(occluder: &Shape, emitter: &Shape) -> (f64, f64) {
-    match occluder {
-        Shape::Rectangle(r) => emitter.extent_along(r.centre, r.normal()),
-        Shape::Disc(d) => emitter.extent_along(d.centre, d.normal),
-        Shape::Sphere(s) => {
+    match (occluder.plane(), occluder) {
+        (Some((point, normal)), _) => emitter.extent_along(point, normal),
+        (None, Shape::Sphere(s)) => {
             let (centre, radius) = emitter.bounding_sphere();
             around((centre - s.centre).length() - s.radius_m, radius)
         }
-        Shape::Mesh(_) => (f64::NEG_INFINITY, f64::INFINITY),
+        (None, _) => (f64::NEG_INFINITY, f64::INFINITY),
     }
 }
 
 /// Whether the occluder lies wholly behind the plane of a flat emitter, where no light of it goes.
 fn behind(emitter: &Shape, side: Side, occluder: &Shape) -> bool {
-    let behind_plane = |centre: DVec3, normal: DVec3| {
-        let (low, high) = occluder.extent_along(centre, side.sign() * normal);
+    emitter.plane().is_some_and(|(point, normal)| {
+        let (low, high) = occluder.extent_along(point, side.sign() * normal);
         high <= 1e-12 * low.abs()
-    };
-    match emitter {
-        Shape::Rectangle(r) => behind_plane(r.centre, r.normal()),
-        Shape::Disc(d) => behind_plane(d.centre, d.normal),
-        Shape::Sphere(_) | Shape::Mesh(_) => false,
-    }
+    })
 }

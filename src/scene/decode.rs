@@ -10,9 +10,9 @@ use super::nearest::{nearest, suggestion};
 use crate::math::DVec3;
 
 /// Largest and smallest length that is taken for a length, m.
-pub(super) const LARGEST_M: f64 = 1e30;
+pub(super) const LARGEST_M: f64 = 1e33;
 /// See [`LARGEST_M`].
-pub(super) const SMALLEST_M: f64 = 1e-30;
+pub(super) const SMALLEST_M: f64 = 1e-33;
 
 /// A value, the document it belongs to, and its path in it.
 #[derive(Clone, Debug)]

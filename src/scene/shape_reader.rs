@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `Rectangle(width, height)` | centred at `at`; width along local x, height along local y, m | `at`, `facing`, `up` or `turned_deg` |
 //! | `Quad(corner: …, u: …, v: …)` | a rectangle by one corner and two edges; its front is the side of u × v | itself |
+//! | `Polygon([(x, y, z), …])` | a plane polygon by its corners; its front is the side from which they run counter-clockwise | itself |
 //! | `Disc(radius)` | centred at `at` | `at`, `facing`, `up` or `turned_deg` |
 //! | `Sphere(radius)` | centred at `at` | `at` |
 //! | `Box(size: (x, y, z))` | its lowest corner at `at`; six rectangles that face outwards | `at`, `turned_deg` |
@@ -13,11 +14,12 @@ use super::decode::{Fields, LARGEST_M, SMALLEST_M, Value, normalised};
 use super::mesh_reader::read_mesh;
 use super::placement::{Placement, read_at, read_flat, read_turned};
 use super::reading::Reading;
+use crate::geometry::polygon::{MOST_CORNERS, Polygon, PolygonError};
 use crate::geometry::shape::{Disc, Rectangle, Shape, Sphere};
 use crate::math::DVec3;
 
 /// The shapes that an object can have; sources have more.
-pub(super) const SHAPES: [&str; 6] = ["Rectangle", "Quad", "Disc", "Sphere", "Box", "Mesh"];
+pub(super) const SHAPES: [&str; 7] = ["Rectangle", "Quad", "Polygon", "Disc", "Sphere", "Box", "Mesh"];
 
 /// How far from perpendicular the edges of a quad may be: the cosine of the angle between them.
 const PERPENDICULAR: f64 = 1e-9;
@@ -47,6 +49,10 @@ pub(super) fn read_shape(shape: &Value, fields: &Fields, reading: &mut Reading) 
         "Quad" => {
             refuse(&["at", "facing", "up", "turned_deg", "scale"], "a `Quad` is placed by its corner and edges", reading);
             read_quad(shape, reading)
+        }
+        "Polygon" => {
+            refuse(&["at", "facing", "up", "turned_deg", "scale"], "a `Polygon` is placed by its corners", reading);
+            read_polygon(shape, reading)
         }
         "Disc" => {
             refuse(&["scale"], "only a mesh is scaled", reading);
@@ -136,6 +142,27 @@ fn read_quad(shape: &Value, reading: &mut Reading) -> Option<Vec<Shape>> {
         return None;
     }
     Some(vec![Shape::Rectangle(Rectangle { centre: corner + 0.5 * (u + v), half_u: 0.5 * u, half_v: 0.5 * v })])
+}
+
+fn read_polygon(shape: &Value, reading: &mut Reading) -> Option<Vec<Shape>> {
+    let problems = &mut reading.problems;
+    let list = shape.positional(1, "Polygon([(0, 0, 0), (1, 0, 0), (0, 1, 0)])", problems)?.into_iter().next()?;
+    let items = list.list("the corners of a polygon", problems)?;
+    let corners: Vec<Option<DVec3>> = items.iter().map(|item| item.point_m(problems)).collect();
+    let corners: Vec<DVec3> = corners.into_iter().collect::<Option<_>>()?;
+    let error = match Polygon::new(&corners) {
+        Ok(polygon) => return Some(vec![Shape::Polygon(polygon)]),
+        Err(error) => error,
+    };
+    let help = match error {
+        PolygonError::CornerCount(n) if n > MOST_CORNERS => "use a mesh",
+        PolygonError::CornerCount(_) | PolygonError::NotFinite(_) => "",
+        PolygonError::NoArea => "give corners that enclose an area; a surface without one sends no light",
+        PolygonError::NotPlane { .. } => "move the corner into the plane, or use a mesh",
+        PolygonError::EdgesMeet(..) => "list each corner once, in the order along the outline; edges are counted from 0",
+    };
+    list.problem(problems, error.to_string(), help);
+    None
 }
 
 /// The six sides of a box, each facing outwards: −x, +x, −y, +y, −z, +z.

@@ -74,6 +74,7 @@ impl Emission<'_> {
             Emission::Environment => "an environment",
             Emission::Area { shapes: [Shape::Sphere(_)], inwards: true, .. } => "the inside of a sphere",
             Emission::Area { shapes: [Shape::Rectangle(_)], .. } => "a rectangle",
+            Emission::Area { shapes: [Shape::Polygon(_)], .. } => "a polygon",
             Emission::Area { shapes: [Shape::Disc(_)], .. } => "a disc",
             Emission::Area { shapes: [Shape::Sphere(_)], .. } => "a sphere",
             Emission::Area { .. } => "a source of this shape",
@@ -96,7 +97,7 @@ impl Emission<'_> {
                 Some(1.0 / (PI * area_m2 * sides))
             }
             (Emission::Area { shapes: [shape], inwards, .. }, Given::Intensity) => match shape {
-                Shape::Rectangle(_) | Shape::Disc(_) => Some(1.0 / shape.area_m2()),
+                Shape::Rectangle(_) | Shape::Polygon(_) | Shape::Disc(_) => Some(1.0 / shape.area_m2()),
                 Shape::Sphere(s) if !inwards => Some(1.0 / (PI * s.radius_m * s.radius_m)),
                 _ => None,
             },

@@ -1,6 +1,6 @@
 //! Two emitters must not share a piece of surface: where they overlap, it is not defined which one is seen.
 //!
-//! Rectangles and discs overlap if they lie in one plane, face the same way and their outlines cross by more than a share of
+//! Rectangles, polygons and discs overlap if they lie in one plane, face the same way and their outlines cross by more than a share of
 //! 1e-9; spheres and meshes if they are the same. Emitters that only touch are fine.
 
 use std::collections::BTreeSet;
@@ -77,20 +77,39 @@ fn overlap(a: &Emitting, b: &Emitting) -> bool {
     }
     match (a.shape, b.shape) {
         (Shape::Disc(d), Shape::Disc(e)) => offset.length() < (d.radius_m + e.radius_m) * (1.0 - SAME),
-        (Shape::Rectangle(r), Shape::Disc(d)) => reaches(r, d),
-        (Shape::Disc(d), Shape::Rectangle(r)) => reaches(r, d),
-        (Shape::Rectangle(r), Shape::Rectangle(s)) => [r.half_u, r.half_v, s.half_u, s.half_v].iter().all(|axis| {
-            // No gap along any of the four edge directions (separating axis theorem).
-            let half = |r: &crate::geometry::shape::Rectangle| axis.dot(r.half_u).abs() + axis.dot(r.half_v).abs();
-            axis.dot(offset).abs() < (half(r) + half(s)) * (1.0 - SAME)
-        }),
-        _ => false,
+        (Shape::Disc(d), shape) | (shape, Shape::Disc(d)) => {
+            let nearest = match shape {
+                Shape::Rectangle(r) => nearest_point(r, d.centre),
+                Shape::Polygon(p) => p.nearest_point(d.centre),
+                _ => return false,
+            };
+            (nearest - d.centre).length() < d.radius_m * (1.0 - SAME)
+        }
+        (shape, other) => {
+            let (parts, others) = (convex_parts(shape), convex_parts(other));
+            parts.iter().any(|part| others.iter().any(|other| !separated(part, other, n) && !separated(other, part, n)))
+        }
     }
 }
 
-/// Whether a disc in the plane of a rectangle reaches into it.
-fn reaches(r: &crate::geometry::shape::Rectangle, d: &crate::geometry::shape::Disc) -> bool {
-    (d.centre - nearest_point(r, d.centre)).length() < d.radius_m * (1.0 - SAME)
+/// A rectangle as it is, a polygon in triangles; counter-clockwise as seen from the front.
+fn convex_parts(shape: &Shape) -> Vec<Vec<DVec3>> {
+    match shape {
+        Shape::Rectangle(r) => vec![r.corners().to_vec()],
+        Shape::Polygon(p) => p.triangles().map(|t| t.to_vec()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Whether an edge of `part` separates it from another convex figure in the same plane, to a share of their size.
+fn separated(part: &[DVec3], other: &[DVec3], normal: DVec3) -> bool {
+    (0..part.len()).any(|i| {
+        let across = (part[(i + 1) % part.len()] - part[i]).cross(normal);
+        let along = |points: &[DVec3]| points.iter().map(|p| across.dot(*p - part[i])).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let ((low, high), (from, to)) = (along(part), along(other));
+        let slack = SAME * (high - low).max(to - from);
+        from >= high - slack || to <= low + slack
+    })
 }
 
 /// The point of a rectangle that is closest to a point.
@@ -101,9 +120,5 @@ pub(super) fn nearest_point(r: &crate::geometry::shape::Rectangle, point: DVec3)
 
 /// The direction into which something flat emits.
 fn emission_normal(emitting: &Emitting) -> Option<DVec3> {
-    match emitting.shape {
-        Shape::Rectangle(r) => Some(r.normal() * emitting.side.sign()),
-        Shape::Disc(d) => Some(d.normal * emitting.side.sign()),
-        _ => None,
-    }
+    emitting.shape.plane().map(|(_, normal)| normal * emitting.side.sign())
 }

@@ -126,6 +126,7 @@ impl Container {
         let (centre, _) = element.shape.bounding_sphere();
         let towards = match &element.shape {
             Shape::Rectangle(r) => nearest_point(r, self.centre),
+            Shape::Polygon(p) => p.nearest_point(self.centre),
             Shape::Disc(d) => {
                 let offset = self.centre - d.centre;
                 let flat = offset - d.normal * offset.dot(d.normal);

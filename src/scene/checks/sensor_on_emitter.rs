@@ -1,6 +1,6 @@
 //! A sensor must not lie on an emitting surface and look into it: the distance between them is zero, and no reading exists.
 //!
-//! The centre of the aperture counts as lying on a rectangle, disc or sphere within a share of 1e-9 of its size. Meshes are
+//! The centre of the aperture counts as lying on a rectangle, polygon, disc or sphere within a share of 1e-9 of its size. Meshes are
 //! not looked at.
 
 use super::SAME;
@@ -44,6 +44,7 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
 fn lies_on(pose: &Pose, shape: &Shape, side: Side) -> bool {
     let (distance, size, normal) = match shape {
         Shape::Rectangle(r) => ((pose.at - nearest_point(r, pose.at)).length(), r.half_u.length().hypot(r.half_v.length()), r.normal()),
+        Shape::Polygon(p) => ((pose.at - p.nearest_point(pose.at)).length(), p.bounding_sphere().1, p.normal()),
         Shape::Disc(d) => {
             let offset = pose.at - d.centre;
             let height = offset.dot(d.normal);

@@ -1,0 +1,25 @@
+//! Laws of radiometry, held by readings as a user gets them: a scene is written, planned and measured.
+//!
+//! | law | tolerance of formulas | of samples |
+//! |---|---|---|
+//! | white furnace: `L/(1 − ρ)` everywhere | – | 4 u |
+//! | energy balance: what a source emits, the walls absorb | 1e-9 | 4 u |
+//! | superposition of sources | 1e-9 | 4 u |
+//! | linearity in strength and responsivity | 1e-9 | 1e-9 at the same seed |
+//! | scale: lengths × k | 1e-9 | 1e-9 at the same seed |
+//! | rotation, translation | 1e-9, rounding of coordinates | 4 u |
+//! | reciprocity of two surfaces | 1e-9 | 4 u |
+//! | inverse square, cosine | 1e-9 | – |
+//! | order of the items of a scene | 1e-9 | 4 u |
+
+mod bench;
+mod cosine;
+mod energy_balance;
+mod inverse_square;
+mod linearity;
+mod motion;
+mod order;
+mod reciprocity;
+mod scale;
+mod superposition;
+mod white_furnace;
