@@ -4,13 +4,14 @@ use std::fmt::Write;
 
 use super::{Bound, Method, Plan, Term, TermId, Transport, Visibility};
 use crate::geometry::shape::Shape;
+use crate::metrology::rounding::format_significant;
 use crate::scene::Scene;
 
 /// Most names that are written out in a row.
 const NAMES: usize = 3;
 
 impl Plan {
-    /// The plan as text, one block an instrument.
+    /// The plan as text, one block an instrument; neighbours with the same plan share one.
     #[must_use]
     pub fn explain(&self, scene: &Scene) -> String {
         let mut text = String::new();
@@ -21,35 +22,27 @@ impl Plan {
 
     fn write(&self, scene: &Scene, out: &mut String) -> std::fmt::Result {
         let all = self.kept.len() + self.omitted.len();
-        let how = if self.naive { "naive plan: every term by rays" } else { "plan" };
-        writeln!(out, "{how}: {} of {all} terms kept", self.kept.len())?;
+        let (how, kept) = (if self.naive { "naive plan" } else { "plan" }, self.kept.len());
+        writeln!(out, "{how}: {kept} of {all} terms kept (instrument channel × source × direct or reflected)")?;
         if !self.without.is_empty() {
             writeln!(out, "switched off: {}", self.without.join(", "))?;
         }
+        let mut blocks: Vec<(Vec<String>, String, String)> = Vec::new();
         for (i, instrument) in scene.instruments.iter().enumerate() {
             let poses = match instrument.poses.len() {
                 1 => String::new(),
-                n => format!(", {n} poses"),
+                n => format!(" in {n} poses"),
             };
-            writeln!(out, "\ninstrument `{}`: {}{poses}", instrument.name, instrument.sensor.title)?;
-            for (c, channel) in instrument.sensor.channels.iter().enumerate() {
-                writeln!(out, "  channel `{}` reads {} in {}", channel.name, channel.reads.name(), channel.reads.unit())?;
-                self.write_kept(scene, i, c, out)?;
-                self.write_omitted(scene, i, c, out)?;
+            let (name, mut body) = (format!("`{}`{poses}", instrument.name), String::new());
+            self.write_instrument(scene, i, &mut body)?;
+            match blocks.last_mut() {
+                Some((names, sensor, same)) if *sensor == instrument.sensor.title && *same == body => names.push(name),
+                _ => blocks.push((vec![name], instrument.sensor.title.clone(), body)),
             }
-            for n in self.narrowed.iter().filter(|n| n.instrument == i) {
-                writeln!(out, "  narrowed   {:<24} {}", n.rule, n.what)?;
-            }
-            if let Some(s) = &self.spectral[i] {
-                let what = match (s.wavelengths_nm.first(), s.wavelengths_nm.last()) {
-                    (Some(_), Some(_)) if s.wavelengths_nm.len() == 1 => "one wavelength carries all: every reflectance is grey".to_owned(),
-                    (Some(a), Some(b)) => {
-                        format!("{} wavelengths from {a:.0} nm to {b:.0} nm, residual {:.1e}", s.wavelengths_nm.len(), s.residual)
-                    }
-                    _ => "no wavelength in common".to_owned(),
-                };
-                writeln!(out, "  spectrum   {what}")?;
-            }
+        }
+        for (named, sensor, body) in blocks {
+            let s = if named.len() == 1 { "" } else { "s" };
+            write!(out, "\ninstrument{s} {}: {sensor}\n{body}", listed(&named))?;
         }
         let mut not_built = Vec::new();
         if !self.needs_rays {
@@ -66,7 +59,39 @@ impl Plan {
         Ok(())
     }
 
-    fn write_kept(&self, scene: &Scene, instrument: usize, channel: usize, out: &mut String) -> std::fmt::Result {
+    fn write_instrument(&self, scene: &Scene, instrument: usize, out: &mut String) -> std::fmt::Result {
+        for (c, channel) in scene.instruments[instrument].sensor.channels.iter().enumerate() {
+            let unit = channel.reads.unit();
+            writeln!(out, "  channel `{}` reads {} in {unit}", channel.name, channel.reads.name())?;
+            let rows: Vec<Row> = [self.kept_rows(scene, instrument, c), self.omitted_rows(scene, instrument, c, unit)].concat();
+            let width = rows.iter().map(|r| r.sources.chars().count()).max().unwrap_or(0);
+            for Row { verb, transport, sources, what } in rows {
+                writeln!(out, "    {verb:<8}  {transport:<9}  {sources:<width$}  {what}")?;
+            }
+        }
+        let mine = |method: Method| self.kept.iter().any(|t| t.id.instrument() == instrument && t.method == method);
+        for n in self.narrowed.iter().filter(|n| n.instrument == instrument) {
+            // A formula that was chosen afterwards leaves no connection to speak of.
+            if n.rule != "delta_source" || mine(Method::Connection) {
+                writeln!(out, "  {:<8}  {} ({})", "narrowed", n.what, n.rule)?;
+            }
+        }
+        if let (Some(s), true) = (&self.spectral[instrument], mine(Method::Paths)) {
+            let nodes = s.wavelengths_nm.len();
+            let what = match (s.wavelengths_nm.first(), s.wavelengths_nm.last()) {
+                (Some(_), Some(_)) if nodes == 1 => "one wavelength carries all: every reflectance is the same at all wavelengths that count".to_owned(),
+                (Some(a), Some(b)) => {
+                    let share = format_significant(100.0 * s.residual, 2);
+                    format!("{nodes} wavelengths from {a:.0} nm to {b:.0} nm; what lies between may change reflected light by {share} %")
+                }
+                _ => "no wavelength in common".to_owned(),
+            };
+            writeln!(out, "  {:<8}  {what}", "spectrum")?;
+        }
+        Ok(())
+    }
+
+    fn kept_rows(&self, scene: &Scene, instrument: usize, channel: usize) -> Vec<Row> {
         let mine = |t: &&Term| t.id.instrument() == instrument && t.id.channel() == channel;
         let mut groups: Vec<(Term, Vec<usize>)> = Vec::new();
         for term in self.kept.iter().filter(mine) {
@@ -78,18 +103,18 @@ impl Plan {
                 None => groups.push((*term, vec![term.id.source()])),
             }
         }
-        for (term, sources) in groups {
+        let row = |(term, sources): (Term, Vec<usize>)| {
             let sight = match (term.id.transport, term.visibility, term.method) {
                 (Transport::Reflected, _, _) => "",
                 (_, Visibility::Clear, _) => ", nothing can block",
                 (_, Visibility::Tested, _) => ", shadow rays",
             };
-            writeln!(out, "    kept     {:<9}  {:<32}  {}{sight}", transport(&term.id), names(scene, &sources), term.method.words())?;
-        }
-        Ok(())
+            Row { verb: "kept", transport: transport(&term.id), sources: names(scene, &sources), what: format!("{}{sight}", term.method.words()) }
+        };
+        groups.into_iter().map(row).collect()
     }
 
-    fn write_omitted(&self, scene: &Scene, instrument: usize, channel: usize, out: &mut String) -> std::fmt::Result {
+    fn omitted_rows(&self, scene: &Scene, instrument: usize, channel: usize, unit: &str) -> Vec<Row> {
         let mut groups: Vec<(&super::Omission, Vec<usize>)> = Vec::new();
         for o in self.omitted.iter().filter(|o| o.id.instrument() == instrument && o.id.channel() == channel) {
             let same = |(g, _): &&mut (&super::Omission, Vec<usize>)| {
@@ -101,16 +126,26 @@ impl Plan {
                 None => groups.push((o, vec![o.id.source()])),
             }
         }
-        for (o, sources) in groups {
+        groups.sort_by_key(|(o, _)| o.id.transport);
+        let row = |(o, sources): (&super::Omission, Vec<usize>)| {
             let bound = match o.bound {
                 Bound::Zero => "zero".to_owned(),
-                Bound::AtMost(most) => format!("at most {most:.2e}"),
+                Bound::AtMost(most) => format!("at most {} {unit}", format_significant(most, 2)),
             };
-            let (who, rule, reason) = (names(scene, &sources), o.rule, &o.reason);
-            writeln!(out, "    left out {:<9}  {who:<32}  {bound}: {reason} ({rule})", transport(&o.id))?;
-        }
-        Ok(())
+            let what = format!("{bound}: {} ({})", o.reason, o.rule);
+            Row { verb: "left out", transport: transport(&o.id), sources: names(scene, &sources), what }
+        };
+        groups.into_iter().map(row).collect()
     }
+}
+
+/// A line about terms.
+#[derive(Clone)]
+struct Row {
+    verb: &'static str,
+    transport: &'static str,
+    sources: String,
+    what: String,
 }
 
 fn transport(id: &TermId) -> &'static str {
@@ -121,9 +156,15 @@ fn transport(id: &TermId) -> &'static str {
 }
 
 fn names(scene: &Scene, sources: &[usize]) -> String {
-    let named: Vec<String> = sources.iter().take(NAMES).map(|&s| format!("`{}`", scene.sources[s].name)).collect();
-    match sources.len().saturating_sub(NAMES) {
-        0 => named.join(", "),
-        more => format!("{} and {more} more", named.join(", ")),
+    let named: Vec<String> = sources.iter().map(|&s| format!("`{}`", scene.sources[s].name)).collect();
+    listed(&named)
+}
+
+/// The first names of a row, and how many more there are.
+fn listed(names: &[String]) -> String {
+    let first = names.iter().take(NAMES).cloned().collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(NAMES) {
+        0 => first,
+        more => format!("{first} and {more} more"),
     }
 }

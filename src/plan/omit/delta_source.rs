@@ -23,6 +23,6 @@ fn apply(scene: &Scene, plan: &mut Plan) {
         }
     }
     for (instrument, &count) in counts.iter().enumerate().filter(|(_, c)| **c > 0) {
-        plan.narrowed.push(Narrowing { rule: RULE.name, instrument, what: format!("{count} direct: samples -> one connection ({})", RULE.sentence) });
+        plan.narrowed.push(Narrowing { rule: RULE.name, instrument, what: format!("samples of {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence) });
     }
 }

@@ -27,6 +27,6 @@ fn apply(scene: &Scene, plan: &mut Plan) {
         }
     }
     for (instrument, &count) in counts.iter().enumerate().filter(|(_, c)| **c > 0) {
-        plan.narrowed.push(Narrowing { rule: RULE.name, instrument, what: format!("{count} direct: no shadow rays ({})", RULE.sentence) });
+        plan.narrowed.push(Narrowing { rule: RULE.name, instrument, what: format!("shadow rays of {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence) });
     }
 }
