@@ -28,7 +28,11 @@ impl Clock {
 
     /// What is counted as seconds of the processor, in words.
     pub(crate) fn kind() -> &'static str {
-        if thread_cpu_s().is_some() { "CPU time of the thread (schedstat)" } else { "wall clock: this system does not count the time of a thread" }
+        if thread_cpu_s().is_some() {
+            "CPU time of the thread (schedstat)"
+        } else {
+            "wall clock: this system does not count the time of a thread"
+        }
     }
 }
 

@@ -93,11 +93,14 @@ struct Sensor {
 }
 
 #[derive(Deserialize)]
-#[serde(tag = "type", rename_all = "snake_case")]
+#[serde(tag = "type")]
 enum Place {
-    IrradiancePoint { pos: [f64; 3] },
-    IrradianceSquare { pos: [f64; 3], side: f64 },
-    IrradianceGrid { origin: [f64; 3], dx: [f64; 3], dy: [f64; 3], nx: usize, ny: usize },
+    #[serde(rename = "irradiance_point")]
+    Point { pos: [f64; 3] },
+    #[serde(rename = "irradiance_square")]
+    Square { pos: [f64; 3], side: f64 },
+    #[serde(rename = "irradiance_grid")]
+    Grid { origin: [f64; 3], dx: [f64; 3], dy: [f64; 3], nx: usize, ny: usize },
 }
 
 fn one() -> f64 {
@@ -147,15 +150,25 @@ impl Contract {
             };
             match &s.emit {
                 None => writeln!(objects, "(name: {id:?}, surface: {id:?}, shape: {shape}),")?,
-                Some(Emission::Grey { radiance }) => writeln!(sources, "(name: {id:?}, surface: {id:?}, strength: Radiance({radiance:?}), spectrum: {GREY}, shape: {shape}),")?,
+                Some(Emission::Grey { radiance }) => writeln!(
+                    sources,
+                    "(name: {id:?}, surface: {id:?}, strength: Radiance({radiance:?}), spectrum: {GREY}, shape: {shape}),"
+                )?,
                 Some(Emission::Spectral { radiance_spectrum, scale }) => {
                     let spectrum = self.curve(radiance_spectrum, files)?;
-                    writeln!(sources, "(name: {id:?}, surface: {id:?}, strength: Absolute({scale:?}), spectrum: {spectrum:?}, shape: {shape}),")?;
+                    writeln!(
+                        sources,
+                        "(name: {id:?}, surface: {id:?}, strength: Absolute({scale:?}), spectrum: {spectrum:?}, shape: {shape}),"
+                    )?;
                 }
             }
         }
         for Light::Point { id, pos, intensity } in &given.lights {
-            writeln!(sources, "(name: {id:?}, shape: Point, at: {}, strength: WattsPerSteradian({intensity:?}), spectrum: {GREY}),", vector(pos))?;
+            writeln!(
+                sources,
+                "(name: {id:?}, shape: Point, at: {}, strength: WattsPerSteradian({intensity:?}), spectrum: {GREY}),",
+                vector(pos)
+            )?;
         }
         if let Some(Environment { radiance }) = given.environment {
             writeln!(sources, "(name: \"environment\", shape: Environment, strength: Radiance({radiance:?}), spectrum: {GREY}),")?;
@@ -163,12 +176,18 @@ impl Contract {
         for s in &given.sensors {
             let channel = match &s.responsivity {
                 None => "(name: \"E\", responsivity: 1.0, reads: Irradiance)".to_owned(),
-                Some(name) => format!("(name: \"E\", responsivity: {:?}, reads: Illuminance(efficacy_lm_w: {:?}))", self.curve(name, files)?, s.factor),
+                Some(name) => format!(
+                    "(name: \"E\", responsivity: {:?}, reads: Illuminance(efficacy_lm_w: {:?}))",
+                    self.curve(name, files)?,
+                    s.factor
+                ),
             };
             let (aperture, place) = match &s.place {
-                Place::IrradiancePoint { pos } => ("Point".to_owned(), format!("at: {}", vector(pos))),
-                Place::IrradianceSquare { pos, side } => (format!("Rectangle(width_m: {side:?}, height_m: {side:?})"), format!("at: {}", vector(pos))),
-                Place::IrradianceGrid { origin, dx, dy, nx, ny } => {
+                Place::Point { pos } => ("Point".to_owned(), format!("at: {}", vector(pos))),
+                Place::Square { pos, side } => {
+                    (format!("Rectangle(width_m: {side:?}, height_m: {side:?})"), format!("at: {}", vector(pos)))
+                }
+                Place::Grid { origin, dx, dy, nx, ny } => {
                     let last: [f64; 3] = std::array::from_fn(|i| origin[i] + dx[i] * (*nx as f64 - 1.0) + dy[i] * (*ny as f64 - 1.0));
                     ("Point".to_owned(), format!("grid: (from: {}, to: {}, points: ({nx}, {ny}))", vector(origin), vector(&last)))
                 }

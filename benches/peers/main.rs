@@ -60,13 +60,17 @@ fn main() -> Result<(), Failure> {
     let references = std::fs::read_to_string(arguments.lab.join("references.json"))?;
     let mut references: BTreeMap<String, serde_json::Value> = serde_json::from_str(&references)?;
     println!("one thread; {}", Clock::kind());
-    println!("{:8} {:>9} {:>4} {:>10} {:>10} {:>10} {:>10} {:>7} {:>7} {:>6} {:>9}", "scene", "samples", "runs", "cpu s", "wall s", "rms %", "mean %", "z", "u/rms", "95 %", "rays/s");
+    println!(
+        "{:8} {:>9} {:>4} {:>10} {:>10} {:>10} {:>10} {:>7} {:>7} {:>6} {:>9}",
+        "scene", "samples", "runs", "cpu s", "wall s", "rms %", "mean %", "z", "u/rms", "95 %", "rays/s"
+    );
     let mut off = Vec::new();
     for (name, sweep) in SWEEPS {
         if !arguments.scenes.is_empty() && !arguments.scenes.iter().any(|s| s == name) {
             continue;
         }
-        let reference: Reference = serde_json::from_value(references.remove(name).ok_or_else(|| format!("references.json has no {name}"))?)?;
+        let reference: Reference =
+            serde_json::from_value(references.remove(name).ok_or_else(|| format!("references.json has no {name}"))?)?;
         if !run(name, sweep, &contract, &reference, &arguments)? {
             off.push(name);
         }
@@ -158,7 +162,11 @@ fn sample_row(scene: &Scene, plan: &Plan, samples: u64, runs: usize, seed: u64, 
             return Err(format!("{} readings for {} reference values", measured.readings.len(), reference.values.len()).into());
         }
         if samples == 0 && (measured.counters.samples, measured.counters.rays) != (0, 0) {
-            return Err(format!("the answer should be exact, but {} samples and {} rays were taken", measured.counters.samples, measured.counters.rays).into());
+            return Err(format!(
+                "the answer should be exact, but {} samples and {} rays were taken",
+                measured.counters.samples, measured.counters.rays
+            )
+            .into());
         }
         row.rays = measured.counters.rays;
         row.wall_s.push(wall_s);
@@ -225,7 +233,11 @@ fn write(name: &str, rows: &[Row], exact: bool, (load_s, plan_s): (f64, f64), ar
         .iter()
         .map(|r| json!({"quality": r.samples, "wall_s": r.wall_s, "cpu_s": r.cpu_s, "values": r.values, "self_error": r.uncertainties, "rays": r.rays}))
         .collect();
-    let method = if exact { "exact: formulas, no ray and no sample" } else { "planned: formulas where there are any, else randomised quasi-Monte Carlo in 16 replicates" };
+    let method = if exact {
+        "exact: formulas, no ray and no sample"
+    } else {
+        "planned: formulas where there are any, else randomised quasi-Monte Carlo in 16 replicates"
+    };
     let result = json!({
         "scene": name, "peer": "etendue",
         // The lab extrapolates Monte Carlo ("mc") and takes the rest ("tuned") as measured.

@@ -76,7 +76,8 @@ impl Row {
             let errors: Vec<f64> = self.values.iter().map(|v| (v[s] - expected) / expected).collect();
             let mean = errors.iter().sum::<f64>() / runs;
             let own: f64 = self.uncertainties.iter().map(|u| (u[s] / expected).powi(2)).sum();
-            let variance = if errors.len() >= MANY_RUNS { errors.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / (runs - 1.0) } else { own / runs };
+            let variance =
+                if errors.len() >= MANY_RUNS { errors.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / (runs - 1.0) } else { own / runs };
             let z_here = mean / (variance / runs).sqrt().hypot(reference.relative_se(s));
             z = if z_here.abs() > z.abs() { z_here } else { z };
             sum += mean;
@@ -84,7 +85,8 @@ impl Row {
             square += errors.iter().map(|e| e * e).sum::<f64>();
             u_square += own;
             let slack = 2.0 * reference.relative_se(s);
-            covered += errors.iter().zip(&self.expanded).filter(|(e, expanded)| e.abs() <= (expanded[s] / expected).hypot(slack)).count() as f64;
+            covered +=
+                errors.iter().zip(&self.expanded).filter(|(e, expanded)| e.abs() <= (expanded[s] / expected).hypot(slack)).count() as f64;
         }
         if sensors > MANY_SENSORS {
             let mean_relative_se = (0..sensors).map(|s| reference.relative_se(s)).sum::<f64>() / sensors as f64;
@@ -93,7 +95,15 @@ impl Row {
         }
         let all = runs * sensors as f64;
         let rms = (square / all).sqrt();
-        Figures { cpu_s: median(&self.cpu_s), wall_s: median(&self.wall_s), rms, mean: sum / sensors as f64, z, u_over_rms: (u_square / all).sqrt() / rms, coverage: covered / all }
+        Figures {
+            cpu_s: median(&self.cpu_s),
+            wall_s: median(&self.wall_s),
+            rms,
+            mean: sum / sensors as f64,
+            z,
+            u_over_rms: (u_square / all).sqrt() / rms,
+            coverage: covered / all,
+        }
     }
 }
 
