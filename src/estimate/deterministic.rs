@@ -101,7 +101,7 @@ fn over_hemisphere(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> f64 {
         Shape::Rectangle(r) => polygon::polygon(&facing(&r.corners(), at, side), normal),
         Shape::Polygon(p) => polygon::polygon(&facing(p.corners(), at, side), normal),
         Shape::Disc(d) => disc::disc(d.centre - at, side.sign() * d.normal, d.radius_m, normal),
-        Shape::Sphere(s) => match (side, inside(s.centre - at, s.radius_m)) {
+        Shape::Sphere(s) => match (side, s.holds(at)) {
             (Side::Front, false) => sphere::sphere(s.centre - at, s.radius_m, normal),
             (Side::Back, true) => std::f64::consts::PI,
             _ => 0.0,
@@ -128,7 +128,7 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
                 0.0
             }
         }
-        Shape::Sphere(s) => match (side, inside(s.centre - at, s.radius_m)) {
+        Shape::Sphere(s) => match (side, s.holds(at)) {
             (Side::Front, false) => sphere::sphere_in_cone(s.centre - at, s.radius_m, normal, half_angle_rad),
             (Side::Back, true) => super::closed_form::cone::projected_solid_angle(half_angle_rad),
             _ => 0.0,
@@ -138,11 +138,6 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
             .map(|corners| of_polygon(&facing(&corners, at, side)))
             .sum(),
     }
-}
-
-/// Whether a receiver is within a sphere, or on it to the rounding of its coordinates.
-fn inside(centre: DVec3, radius_m: f64) -> bool {
-    centre.length() <= radius_m * (1.0 + 1e-12)
 }
 
 /// Corners relative to a receiver, in the order that shows the emitting side counter-clockwise.

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use crate::geometry::mesh::Mesh;
 use crate::geometry::polygon::Polygon;
 use crate::geometry::rays::NONE;
-use crate::geometry::shape::{Shape, Side};
+use crate::geometry::shape::{Shape, Side, Sphere};
 use crate::math::DVec3;
 use crate::math::angle::one_minus_cos_of_sine;
 use crate::math::frame::world_from_local;
@@ -37,7 +37,7 @@ enum Piece {
     Rectangle { element: u32, centre: DVec3, u: DVec3, v: DVec3, normal: DVec3, area_m2: f64 },
     Polygon { element: u32, polygon: Polygon, normal: DVec3 },
     Disc { element: u32, centre: DVec3, u: DVec3, v: DVec3, normal: DVec3, area_m2: f64 },
-    Sphere { element: u32, centre: DVec3, radius_m: f64, side: Side },
+    Sphere { element: u32, sphere: Sphere, side: Side },
     Mesh { element: u32, mesh: Arc<Mesh>, side: Side },
 }
 
@@ -150,7 +150,7 @@ fn piece(shape: &Shape, element: u32, side: Side) -> Piece {
                 area_m2: PI * d.radius_m * d.radius_m,
             }
         }
-        Shape::Sphere(s) => Piece::Sphere { element, centre: s.centre, radius_m: s.radius_m, side },
+        Shape::Sphere(s) => Piece::Sphere { element, sphere: *s, side },
         Shape::Mesh(m) => Piece::Mesh { element, mesh: Arc::clone(m), side },
     }
 }
@@ -177,7 +177,8 @@ fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
             Connection { to, weight: 1.0 / (r2 * r2.sqrt()), ..dark }
         }
         Piece::Parallel { travels } => Connection { to: -*travels, t_end: f64::INFINITY, weight: 1.0, ..dark },
-        Piece::Sphere { element, centre, radius_m, side } => {
+        Piece::Sphere { element, sphere, side } => {
+            let Sphere { centre, radius_m } = sphere;
             let axis = *centre - x;
             let distance = axis.length();
             if distance > *radius_m && *side == Side::Front {
@@ -189,7 +190,7 @@ fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
                 let t = along - (radius_m * radius_m - aside2).max(0.0).sqrt();
                 // density 1/Ω with Ω = 2π (1 − cos α): E = L cosθ_r Ω, and n·to = t cosθ_r
                 Connection { to: t * direction, weight: TAU * h / t, element: *element, ..dark }
-            } else if distance < *radius_m && *side == Side::Back {
+            } else if *side == Side::Back && sphere.holds(x) {
                 let z = 1.0 - 2.0 * u[0];
                 let s = (1.0 - z * z).max(0.0).sqrt();
                 let (sin, cos) = (TAU * u[1]).sin_cos();

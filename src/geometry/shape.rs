@@ -14,6 +14,7 @@ use std::sync::Arc;
 
 use super::mesh::Mesh;
 use super::polygon::Polygon;
+use super::rays::COINCIDENT;
 use crate::math::DVec3;
 
 /// A plane rectangle.
@@ -66,6 +67,16 @@ pub struct Sphere {
     pub centre: DVec3,
     /// Radius, m.
     pub radius_m: f64,
+}
+
+impl Sphere {
+    /// Whether a point is within the sphere, or on it to the rounding of coordinates: a point that was found on the surface is on either
+    /// side of it by a few roundings.
+    #[must_use]
+    pub fn holds(&self, point: DVec3) -> bool {
+        let rounding = 4.0 * f64::EPSILON * (self.centre.abs().max_element() + point.abs().max_element());
+        (point - self.centre).length() <= self.radius_m * (1.0 + COINCIDENT) + rounding
+    }
 }
 
 /// A shape in the world.

@@ -174,6 +174,10 @@ impl Shafts {
         let receivers = self.apart[element];
         // Rounding of coordinates is forgiven to the same share of their size as coincident surfaces are.
         let slack = 1e-12 * [receivers.0, receivers.1, source.0, source.1].into_iter().map(f64::abs).fold(0.0, f64::max);
+        // A mesh has no plane to be on one side of: its distances are not finite.
+        if !slack.is_finite() {
+            return false;
+        }
         let below = receivers.1 <= slack && source.1 <= slack;
         let above = receivers.0 >= -slack && source.0 >= -slack;
         below || (above && !matches!(shape, Shape::Sphere(_)))

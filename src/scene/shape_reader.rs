@@ -158,7 +158,7 @@ fn read_polygon(shape: &Value, reading: &mut Reading) -> Option<Vec<Shape>> {
         PolygonError::CornerCount(n) if n > MOST_CORNERS => "use a mesh",
         PolygonError::CornerCount(_) | PolygonError::NotFinite(_) => "",
         PolygonError::NoArea => "give corners that enclose an area; a surface without one sends no light",
-        PolygonError::NotPlane { .. } => "move the corner into the plane, or use a mesh",
+        PolygonError::NotPlane { .. } => "move the corner into the plane, or use a mesh; corners are counted from 0",
         PolygonError::EdgesMeet(..) => "list each corner once, in the order along the outline; edges are counted from 0",
     };
     list.problem(problems, error.to_string(), help);

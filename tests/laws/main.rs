@@ -11,12 +11,14 @@
 //! | reciprocity of two surfaces | 1e-9 | 4 u |
 //! | inverse square, cosine | 1e-9 | – |
 //! | order of the items of a scene | 1e-9 | 4 u |
+//! | methods: formulas and samples agree | – | 4 u |
 
 mod bench;
 mod cosine;
 mod energy_balance;
 mod inverse_square;
 mod linearity;
+mod methods;
 mod motion;
 mod order;
 mod reciprocity;

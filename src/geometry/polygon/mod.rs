@@ -85,15 +85,19 @@ impl Polygon {
         let rounding = ROUNDINGS * f64::EPSILON * (1.0 + farthest / size);
         let share = vector_area.length();
         if share.is_nan() || share <= rounding.min(1e-3 * f64::EPSILON.sqrt()) {
-            return Err(PolygonError::NoArea);
+            // A figure of eight has no area in sum.
+            let crosses = local.windows(2).map(|pair| pair[0].cross(pair[1]));
+            let widest = crosses.max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or_default();
+            let outline = |normal: DVec3| flattened(&local, normal);
+            let meeting = if widest.length() > 4.0 * share { triangulate::edges_that_meet(&outline(widest.normalize())) } else { None };
+            return Err(meeting.map_or(PolygonError::NoArea, |(i, j)| PolygonError::EdgesMeet(i, j)));
         }
         let normal = vector_area / share;
         let off = |v: DVec3| normal.dot(v).abs();
         if let Some(corner) = local.iter().position(|&v| off(v) > PLANE + rounding / share.min(1.0)) {
             return Err(PolygonError::NotPlane { corner, distance_m: off(local[corner]) * size });
         }
-        let (x, y) = tangents(normal);
-        let flat: Vec<[f64; 2]> = local.iter().map(|v| [x.dot(*v), y.dot(*v)]).collect();
+        let flat = flattened(&local, normal);
         if let Some((i, j)) = triangulate::edges_that_meet(&flat) {
             return Err(PolygonError::EdgesMeet(i, j));
         }
@@ -184,6 +188,12 @@ impl Polygon {
         let distance = |p: &DVec3| (*p - point).length_squared();
         (0..self.corners.len()).map(on_edge).min_by(|p, q| distance(p).total_cmp(&distance(q))).unwrap_or(self.corners[0])
     }
+}
+
+/// Coordinates in the plane of a normal.
+fn flattened(points: &[DVec3], normal: DVec3) -> Vec<[f64; 2]> {
+    let (x, y) = tangents(normal);
+    points.iter().map(|p| [x.dot(*p), y.dot(*p)]).collect()
 }
 
 /// Whether a point of the plane is inside an outline: an odd number of edges passes above it.

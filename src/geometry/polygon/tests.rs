@@ -55,6 +55,7 @@ fn corners_that_make_no_polygon_are_told_apart() {
     assert_eq!(Polygon::new(&[x, x, x]), Err(PolygonError::NoArea));
     assert_eq!(Polygon::new(&[v(0.1, 0.1, 0.7), v(0.2, 0.2, 0.7), v(0.3, 0.3, 0.7)]), Err(PolygonError::NoArea));
     assert!(matches!(Polygon::new(&[o, x, x + y, y + v(0.0, 0.0, 1e-3)]), Err(PolygonError::NotPlane { .. })));
+    assert!(matches!(Polygon::new(&[o, x, y, x + y]), Err(PolygonError::EdgesMeet(..))));
     assert!(matches!(Polygon::new(&[o, x, y, x + y + y]), Err(PolygonError::EdgesMeet(..))));
     assert!(matches!(Polygon::new(&[o, x, x, x + y, y]), Err(PolygonError::EdgesMeet(1, 2))));
     assert!(matches!(Polygon::new(&[o, x * 2.0, x, x + y]), Err(PolygonError::EdgesMeet(0, 1))));

@@ -65,6 +65,14 @@ fn emitters_are_refused_only_if_they_overlap_on_the_same_side() {
     assert!(two("shape: Disc(0.5), at: (0, 0, 3)", "shape: Disc(0.5), at: (0.9, 0, 3)"));
     assert!(two("shape: Sphere(1), at: (0, 0, 3)", "shape: Sphere(1), at: (0, 0, 3), seen_from: Both"));
     assert!(two("shape: Box(size: (1, 1, 1)), at: (1, 1, 1)", "shape: Rectangle(1, 1), at: (1.5, 1.5, 2)"));
+    let arrow = |x: f64| format!("shape: Polygon([({}, 1, 3), ({}, 0, 3), ({}, -1, 3), ({x}, 0, 3)])", x - 1.0, x + 1.0, x - 1.0);
+    assert!(two(panel, &arrow(1.0)));
+    assert!(two(&arrow(0.0), &arrow(0.5)));
+    assert!(two("shape: Disc(0.5), at: (0.4, 0, 3), facing: (0, 0, -1)", &arrow(0.0)));
+    assert!(!two(panel, &arrow(2.0)), "only the ends of the arrow are beside the panel");
+    assert!(!two(&arrow(0.0), &arrow(1.0)), "the tip of the one is in the notch of the other");
+    assert!(!two("shape: Disc(0.5), at: (-0.8, 0, 3), facing: (0, 0, -1)", &arrow(0.0)), "it is in the notch");
+    assert!(!two(panel, "shape: Polygon([(-1, -1, 3), (1, -1, 3), (0, 1, 3)])"), "back to back");
     assert!(!two(panel, "shape: Rectangle(2, 1), at: (2, 0, 3), facing: (0, 0, -1)"), "they touch");
     assert!(!two(panel, "shape: Rectangle(2, 1), at: (0, 0, 3), facing: (0, 0, 1)"), "back to back");
     assert!(!two(panel, "shape: Rectangle(2, 1), at: (0, 0, 3.001), facing: (0, 0, -1)"), "one above the other");
@@ -80,11 +88,14 @@ fn a_sensor_on_an_emitter_is_refused_only_if_it_looks_into_it() {
     assert!(on("shape: Rectangle(2, 1), facing: (0, 0, -1)"));
     assert!(on("shape: Rectangle(2, 1), facing: (0, 0, 1), seen_from: Inside"));
     assert!(on("shape: Disc(1), facing: (0, 1, -1)"));
+    assert!(on("shape: Polygon([(0, 1, 0), (1, -1, 0), (-1, -1, 0)])"));
     assert!(on("shape: Sphere(1), at: (0.3, 0, 1)"));
     assert!(on("shape: Sphere(1), at: (0.3, 0, -1), seen_from: Inside"));
     assert!(!on("shape: Rectangle(2, 1), facing: (0, 0, 1)"), "the sensor looks the other way");
     assert!(!on("shape: Rectangle(2, 1), at: (0, 0, 0.001), facing: (0, 0, -1)"), "there is a gap");
     assert!(!on("shape: Rectangle(0.5, 1), facing: (0, 0, -1)"), "it is beside it");
     assert!(!on("shape: Disc(0.2), facing: (0, 0, -1)"), "it is beside it");
+    assert!(!on("shape: Polygon([(0, 1, 0), (0.2, -1, 0), (-1, -1, 0)])"), "it is beside it");
+    assert!(!on("shape: Polygon([(-1, -1, 0), (1, -1, 0), (0, 1, 0)])"), "the sensor looks the other way");
     assert!(!on("shape: Sphere(1), at: (0.3, 0, 1), seen_from: Inside"), "the outside does not emit");
 }
