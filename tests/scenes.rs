@@ -88,16 +88,16 @@ fn laws() -> Vec<Law> {
         law("ideal-integrating-sphere.ron", [1024, 4096], &[("port", 0, "E_v", 1000.0 / (4.0 * PI * 0.0625 * 0.02))]),
         Law {
             // Balance of energy with the same irradiance on every surface.
-            near: vec![("port", 0, "E_v", 0.98 * 1000.0 / (0.02 * PI * (0.25 + 2.0 * 0.0009) + 4.0 * PI * 1e-4), 0.02)],
-            ..law("integrating-sphere.ron", [4096, 4096], &[])
+            near: vec![("port", 0, "E_v", 0.98 * 1000.0 / (0.02 * PI * (0.25 + 2.0 * 0.0009) + 4.0 * PI * 1e-4), 0.005)],
+            ..law("integrating-sphere.ron", [16384, 16384], &[])
         },
-        law("cornell-box.ron", [4096, 4096], &[]),
+        law("cornell-box.ron", [16384, 16384], &[]),
         Law {
             // A Monte Carlo program of its own for this room (slabs for the desks, 1 500 000 paths): 531.1 ± 0.5.
             near: vec![("work plane", 8 * 20 + 12, "E_v", 531.1, 0.003)],
             ..law("office.ron", [256, 256], &[])
         },
-        law("mesh.ron", [4096, 4096], &[]),
+        law("mesh.ron", [131072, 65536], &[]),
         Law {
             // The same with an analytic window, 4 000 000 paths: 558.0 ± 1.1.
             near: vec![("in the shade", 0, "E_v", 558.0, 0.006)],
@@ -245,6 +245,16 @@ fn planned_and_naive_readings_agree() {
     }
     assert!(f64::from(compared) <= COMPARISONS, "{compared} comparisons");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Seen from 10 m the wall hides a share of the sky close to one stratum in 32: now and then all replicates find the same.
+#[test]
+fn replicates_that_agree_by_their_strata_do_not_pass_for_exact() {
+    let scene = scene("overcast-sky.ron");
+    for seed in 0..64 {
+        let far = &read(&scene, false, 512, seed).readings[2];
+        assert!(far.samples >= 512 && far.standard_uncertainty() > 0.0, "seed {seed}: {} ± 0", far.value);
+    }
 }
 
 #[test]

@@ -7,6 +7,7 @@ use super::sky;
 use super::{Counters, EstimateError, REPLICATES, Sampled};
 use crate::geometry::world::World;
 use crate::math::random::Stream;
+use crate::metrology::Replicates;
 use crate::plan::spectral::SpectralPlan;
 
 /// Confidence 95 %: if N independent trials all had the same outcome, the other one has a probability below 3/N.
@@ -152,6 +153,13 @@ impl Job<'_> {
         Sampled { label: label.to_owned(), replicates, samples, missed, spectral_residual }
     }
 
+    /// Mean of the replicates and its standard uncertainty from their spread, summed over groups and nodes, per unit of density.
+    fn mean_and_spread(&self, progress: &Progress) -> (f64, f64) {
+        let n = f64::from(progress.points);
+        let means: Vec<f64> = progress.sums.chunks_exact(self.width()).map(|sums| sums.iter().sum::<f64>() / n).collect();
+        Replicates::evaluate(&means).map_or((0.0, 0.0), |found| (found.mean, found.standard_uncertainty))
+    }
+
     /// What all samples may have missed, per unit of density.
     fn missed(&self, progress: &Progress) -> Option<(f64, String)> {
         let samples = f64::from(progress.points) * REPLICATES as f64;
@@ -171,13 +179,21 @@ impl Job<'_> {
                     Some((bound, format!("no clear connection in {n}")))
                 } else if progress.clear == progress.connections {
                     Some((bound, format!("no blocked connection in {n}")))
+                } else if self.mean_and_spread(progress).1 < progress.potential / samples / samples {
+                    // The strata quantise the share that is clear. One replicate of sixteen that differs by one connection would spread
+                    // more than this: they all found the same count, which says no more than that a different one is rare.
+                    Some((bound, format!("every replicate found the same share of {n} connections clear")))
                 } else {
                     None
                 }
             }
             Job::Paths { scene, accepted_sr, .. } => {
                 if progress.sums.iter().any(|s| *s != 0.0) {
-                    return None;
+                    let (mean, spread) = self.mean_and_spread(progress);
+                    let width = self.width();
+                    let of_slot = |slot: usize| progress.sums.iter().skip(slot).step_by(width).sum::<f64>() / samples;
+                    let largest = (0..width).map(of_slot).fold(0.0, f64::max);
+                    return (spread < mean / samples).then(|| (RULE_OF_THREE * largest / samples, format!("every replicate found the same in {samples} paths")));
                 }
                 // As if every path had found the brightest reflecting surface, or what the hidden lights would have given.
                 let brightest = scene.survival.iter().copied().fold(0.0, f64::max) * accepted_sr;
