@@ -11,7 +11,6 @@ use super::closed_form::aperture::{self, Bounded, aperture_average};
 use super::closed_form::{directional, disc, exchange, point, polygon, polygon_in_cone, sphere};
 use crate::geometry::shape::{Shape, Side};
 use crate::math::DVec3;
-use crate::plan::choose::closed_sphere;
 use crate::scene::{Pose, Scene};
 use crate::sensor::{Acceptance, Aperture, Sensor};
 use crate::source::{Emitter, Source};
@@ -199,15 +198,4 @@ fn whole_aperture(scene: &Scene, sensor: &Sensor, pose: &Pose, source: &Source) 
         }
         _ => None,
     }
-}
-
-/// Reflected irradiance at the wall of a closed sphere per unit of the source's intensity: `4π ρ / (A (1 − ρ))`.
-///
-/// `None` if the scene is not such a sphere, or its reflectance is not one number below one where the light is.
-pub(super) fn sphere_wall(scene: &Scene, source: &Source) -> Option<f64> {
-    let found = closed_sphere(scene)?;
-    let (low, high) = source.density.support().hull()?;
-    let rho = scene.surfaces[found.surface].reflectance.is_constant_over(low, high)?;
-    let r = found.sphere.radius_m;
-    Some(rho / (1.0 - rho) / r / r)
 }

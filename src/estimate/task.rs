@@ -1,6 +1,6 @@
 //! What is to be done for an instrument: its deterministic terms and its jobs.
 
-use super::deterministic::{direct, sphere_wall};
+use super::deterministic::direct;
 use super::direct::{SourceJob, connection};
 use super::job::{Job, Progress};
 use super::paths::PathScene;
@@ -9,6 +9,7 @@ use super::{ChannelEstimate, Counters, Exact};
 use crate::geometry::world::World;
 use crate::math::random::Stream;
 use crate::metrology::CompensatedSum;
+use crate::plan::choose::ClosedSphere;
 use crate::plan::{Method, Plan, Transport, Visibility};
 use crate::scene::{Instrument, Scene};
 
@@ -142,7 +143,8 @@ impl<'a> Task<'a> {
             add(source, value, 0.0);
         }
         for &(c, s) in &self.spheres {
-            sums[c].add(self.weights[c][s] * sphere_wall(self.scene, &self.scene.sources[s]).unwrap_or(0.0));
+            let reflected = ClosedSphere::of(self.scene).and_then(|sphere| sphere.reflected(self.scene, &self.scene.sources[s]));
+            sums[c].add(self.weights[c][s] * reflected.unwrap_or(f64::NAN));
             exact[c].terms += 1;
         }
         for (exact, sum) in exact.iter_mut().zip(&sums) {

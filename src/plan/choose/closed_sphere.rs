@@ -1,19 +1,23 @@
 //! In a closed sphere with a uniform wall every reflection falls evenly on the wall, so all reflections can be summed.
 //!
 //! ```text
-//! E_reflected = ρ Φ / (A (1 − ρ)),   A = 4π R²
+//! E_reflected = E₁ q / (1 − q)        E₁ = Φ / (4π R²),   q = ρ
+//! with a ball of radius a at the centre                   q = ρ (1 − (1 − ρ_ball) a²/R²)
 //! ```
 //!
 //! Two points of a sphere see each other under the same form factor whatever their distance, so the first reflection is already
-//! uniform, wherever the source stands and however it shines, as long as all its flux reaches the wall.
-//! Holds for a cosine receptor at a point of the wall that faces the centre, and sources without extent within the sphere.
+//! uniform, wherever a point source stands, as long as all its flux reaches the wall. A ball at the centre takes the share a²/R²
+//! of what the wall sends out (reciprocity), the same from every point of the wall, and returns ρ_ball of it evenly.
+//! Holds for a cosine receptor at a point of the wall that faces the centre.
+
+use std::f64::consts::PI;
 
 use super::Choice;
-use crate::geometry::shape::{Shape, Sphere};
+use crate::geometry::shape::{Shape, Side, Sphere};
 use crate::plan::{Method, Plan, Transport};
 use crate::scene::Scene;
 use crate::sensor::{Acceptance, Aperture};
-use crate::source::Emitter;
+use crate::source::{Emitter, Source};
 
 pub(super) const CHOICE: Choice = Choice {
     name: "closed_sphere",
@@ -21,48 +25,84 @@ pub(super) const CHOICE: Choice = Choice {
     apply,
 };
 
+/// Lengths that are the same to this share: to the rounding of the coordinates that were written down.
+const SAME: f64 = 1e-9;
+
 /// A closed sphere that holds everything.
 #[derive(Clone, Copy, Debug)]
 pub struct ClosedSphere {
-    /// Where.
-    pub sphere: Sphere,
+    wall: Sphere,
     /// Index into `Scene::surfaces` of its inside.
-    pub surface: usize,
+    inside: usize,
+    /// A ball at the centre: its share of the wall's area, and what covers it.
+    ball: Option<(f64, usize)>,
 }
 
-/// The sphere, if the scene is nothing but one with point sources inside.
-#[must_use]
-pub fn closed_sphere(scene: &Scene) -> Option<ClosedSphere> {
-    let [element] = scene.elements.as_slice() else { return None };
-    let Shape::Sphere(sphere) = element.shape else { return None };
-    let inside = scene.sources.iter().all(|s| match s.emitter {
-        Emitter::Point { at } => (at - sphere.centre).length() < sphere.radius_m,
-        _ => false,
-    });
-    inside.then_some(ClosedSphere { sphere, surface: element.back })
+impl ClosedSphere {
+    /// The sphere, if the scene is nothing but one with point sources inside, or with an emitting ball at its centre.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Option<ClosedSphere> {
+        let balls: Vec<(usize, Sphere)> = scene
+            .elements
+            .iter()
+            .enumerate()
+            .map(|(i, e)| if let Shape::Sphere(s) = e.shape { Some((i, s)) } else { None })
+            .collect::<Option<_>>()?;
+        let (outer, wall) = *balls.iter().max_by(|a, b| a.1.radius_m.total_cmp(&b.1.radius_m))?;
+        let ball = match balls.as_slice() {
+            [_] => None,
+            [a, b] => {
+                let (inner, ball) = if a.0 == outer { *b } else { *a };
+                let concentric = (ball.centre - wall.centre).length() <= SAME * ball.radius_m && ball.radius_m < wall.radius_m;
+                let share = (ball.radius_m / wall.radius_m).powi(2);
+                Some(concentric.then_some((inner, share))?)
+            }
+            _ => return None,
+        };
+        let fits = scene.sources.iter().all(|s| match (&s.emitter, ball) {
+            (Emitter::Point { at }, None) => (*at - wall.centre).length() < wall.radius_m,
+            (Emitter::Area { elements }, Some((inner, _))) => elements.as_slice() == [(inner, Side::Front)],
+            _ => false,
+        });
+        fits.then(|| ClosedSphere {
+            wall,
+            inside: scene.elements[outer].back,
+            ball: ball.map(|(inner, share)| (share, scene.elements[inner].front)),
+        })
+    }
+
+    /// Reflected irradiance at the wall per unit of the source's density. `None` where a reflectance is not one number over the
+    /// wavelengths of the source, for which the sum is not a number either, or nothing is lost.
+    #[must_use]
+    pub fn reflected(&self, scene: &Scene, source: &Source) -> Option<f64> {
+        let (low, high) = source.density.support().hull()?;
+        let grey = |surface: usize| scene.surfaces[surface].reflectance.is_constant_over(low, high);
+        let (lost, flux_per_density) = match self.ball {
+            None => (0.0, 4.0 * PI),
+            Some((share, surface)) => ((1.0 - grey(surface)?) * share, 4.0 * PI * PI * share * self.wall.radius_m.powi(2)),
+        };
+        let q = grey(self.inside)? * (1.0 - lost);
+        // 1 − q = (1 − ρ) + ρ lost, without the cancellation of a reflectance close to one.
+        let rest = (1.0 - grey(self.inside)?) + grey(self.inside)? * lost;
+        (rest > 0.0).then(|| q / rest * flux_per_density / (4.0 * PI * self.wall.radius_m.powi(2)))
+    }
 }
 
 fn apply(scene: &Scene, plan: &mut Plan) {
-    let Some(ClosedSphere { sphere, surface }) = closed_sphere(scene) else { return };
+    let Some(sphere) = ClosedSphere::of(scene) else { return };
+    let wall = sphere.wall;
     let on_the_wall: Vec<bool> = scene
         .instruments
         .iter()
         .map(|i| {
             i.sensor.aperture == Aperture::Point
                 && i.sensor.acceptance == Acceptance::Cosine
-                && i.poses.iter().all(|p| {
-                    // To the rounding of the coordinates that were written down.
-                    let from_wall = (p.at + sphere.radius_m * p.normal - sphere.centre).length();
-                    from_wall <= 1e-9 * sphere.radius_m
-                })
+                && i.poses.iter().all(|p| (p.at + wall.radius_m * p.normal - wall.centre).length() <= SAME * wall.radius_m)
         })
         .collect();
     for term in &mut plan.kept {
-        // ρ/(1 − ρ) is a number only where ρ is one.
-        let reflectance = &scene.surfaces[surface].reflectance;
-        let band = scene.sources[term.id.source()].density.support().hull();
-        let grey = band.and_then(|(low, high)| reflectance.is_constant_over(low, high)).is_some_and(|rho| rho < 1.0);
-        if grey && term.id.transport == Transport::Reflected && on_the_wall[term.id.instrument()] {
+        let summed = || sphere.reflected(scene, &scene.sources[term.id.source()]).is_some();
+        if term.id.transport == Transport::Reflected && on_the_wall[term.id.instrument()] && summed() {
             term.method = Method::ClosedSphere;
         }
     }

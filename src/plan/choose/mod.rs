@@ -29,4 +29,4 @@ pub(super) fn choose_methods(scene: &Scene, plan: &mut Plan, without: &[String])
 
 pub use closed_form::Formula;
 pub use closed_form::formula;
-pub use closed_sphere::{ClosedSphere, closed_sphere};
+pub use closed_sphere::ClosedSphere;
