@@ -77,6 +77,15 @@ fn rounded(value: f64, expanded: f64) -> (String, String) {
     }
 }
 
+/// Two digits, without a power of ten where a person needs none.
+fn two_digits(x: f64) -> String {
+    if (100.0..1e6).contains(&x) {
+        let unit = 10f64.powi(x.log10().floor() as i32 - 1);
+        return format!("{:.0}", (x / unit).round() * unit);
+    }
+    format_significant(x, 2)
+}
+
 fn relative(expanded: f64, value: f64) -> String {
     match (value == 0.0, expanded / value.abs()) {
         (true, _) => "-".to_owned(),
@@ -86,7 +95,9 @@ fn relative(expanded: f64, value: f64) -> String {
 }
 
 fn write_table(readings: &[&Reading], out: &mut String) -> std::fmt::Result {
-    let mut rows = vec![["instrument", "quantity", "reading", "", "U (95 %)", "k", "U/reading", "samples"].map(str::to_owned)];
+    // Where the poses of a list are is worth a column, a single one is known by its name.
+    let listed = readings.iter().any(|r| r.layout == Layout::List);
+    let mut rows = vec![["instrument", if listed { "at" } else { "" }, "quantity", "reading", "", "U (95 %)", "k", "U/reading", "samples"].map(str::to_owned)];
     for r in readings {
         let (value, expanded) = rounded(r.value, r.expanded.expanded_uncertainty);
         let name = match r.layout {
@@ -97,6 +108,7 @@ fn write_table(readings: &[&Reading], out: &mut String) -> std::fmt::Result {
         let quantity = if alone { r.measurand.name().to_owned() } else { format!("{} ({})", r.measurand.name(), r.channel) };
         rows.push([
             name,
+            if listed { place(r) } else { String::new() },
             quantity,
             value,
             r.measurand.unit().to_owned(),
@@ -107,18 +119,19 @@ fn write_table(readings: &[&Reading], out: &mut String) -> std::fmt::Result {
         ]);
     }
     // The reading and the number of samples are numbers and end in one column.
-    let right = [false, false, true, false, false, false, true, true];
-    let width: Vec<usize> = (0..8).map(|c| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0)).collect();
+    let right = [false, false, false, true, false, false, false, true, true];
+    let shown: Vec<usize> = (0..9).filter(|&c| c != 1 || listed).collect();
+    let width: Vec<usize> = (0..9).map(|c| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0)).collect();
     for (k, row) in rows.iter().enumerate() {
         let mut line = String::from(" ");
-        for c in 0..8 {
+        for &c in &shown {
             let pad = " ".repeat(width[c] - row[c].chars().count());
             let (before, after) = if right[c] { (pad.as_str(), "") } else { ("", pad.as_str()) };
             write!(line, " {before}{}{after} ", row[c])?;
         }
         writeln!(out, "{}", line.trim_end())?;
         if k == 0 {
-            writeln!(out, "  {}", "─".repeat(width.iter().sum::<usize>() + 14))?;
+            writeln!(out, "  {}", "─".repeat(shown.iter().map(|&c| width[c] + 2).sum::<usize>() - 2))?;
         }
     }
     writeln!(out)
@@ -201,14 +214,14 @@ fn write_budget(r: &Reading, out: &mut String) -> std::fmt::Result {
         r.budget.rows.iter().partition(|row| row.standard_uncertainty >= SMALL * combined && row.standard_uncertainty > 0.0);
     for row in large {
         let freedom = if row.degrees_of_freedom.is_finite() { format!("ν = {:.0}", row.degrees_of_freedom) } else { String::new() };
-        writeln!(out, "    {}  {:>9}  {:<7} {}", row.kind.letter(), format_significant(row.standard_uncertainty, 2), freedom, row.source)?;
+        writeln!(out, "    {}  {:>9}  {:<7} {}", row.kind.letter(), two_digits(row.standard_uncertainty), freedom, row.source)?;
     }
     let rest = small.iter().map(|row| row.standard_uncertainty).fold(0.0, f64::hypot);
     if rest > 0.0 {
         let rows = if small.len() == 1 { "one row".to_owned() } else { format!("{} rows", small.len()) };
-        writeln!(out, "       {:>9}          {rows} below 1 % of the whole", format_significant(rest, 2))?;
+        writeln!(out, "       {:>9}          {rows} below 1 % of the whole", two_digits(rest))?;
     }
-    writeln!(out, "       {:>9}          combined standard uncertainty\n", format_significant(combined, 2))
+    writeln!(out, "       {:>9}          combined standard uncertainty\n", two_digits(combined))
 }
 
 fn write_notes(m: &Measurement, out: &mut String) -> std::fmt::Result {
