@@ -13,6 +13,8 @@
 //! | order of the items of a scene | 1e-9 | 4 u |
 //! | methods: formulas and samples agree | – | 4 u |
 
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
+
 mod bench;
 mod cosine;
 mod energy_balance;

@@ -119,7 +119,7 @@ impl System {
 
     /// Strength and spectrum of a surface by its exitance.
     pub(crate) fn exitance(self, m: f64) -> String {
-        format!("strength: {}({m:e}), spectrum: {}", if self == System::Luminous { "LuminousExitance" } else { "Exitance" }, self.spectrum())
+        format!("strength: {}: {m:e}), spectrum: {}", if self == System::Luminous { "LuminousExitance(lumens_per_m2" } else { "Exitance(watts_per_m2" }, self.spectrum())
     }
 
     fn sensor(self, aperture: &str, acceptance: &str, [radiant, luminous]: [&str; 2]) -> String {

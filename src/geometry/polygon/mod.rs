@@ -70,7 +70,7 @@ impl Polygon {
         if !(3..=MOST_CORNERS).contains(&n) {
             return Err(PolygonError::CornerCount(n));
         }
-        if let Some(corner) = corners.iter().position(|c| !(c.abs().max_element() <= 1e140)) {
+        if let Some(corner) = corners.iter().position(|c| !c.is_finite() || c.abs().max_element() > 1e140) {
             return Err(PolygonError::NotFinite(corner));
         }
         let first = corners[0];

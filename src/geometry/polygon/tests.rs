@@ -33,7 +33,7 @@ proptest! {
     fn samples_are_on_the_polygon_and_have_its_centroid(radii in prop::collection::vec(0.2..1.0_f64, 3..9)) {
         let polygon = Polygon::new(&star(&radii, DVec3::new(0.3, -0.2, 1.0), DVec3::ZERO)).unwrap();
         let centroid = polygon.triangles().map(|[a, b, c]| (a + b + c) / 3.0 * (0.5 * (b - a).cross(c - a).length())).sum::<DVec3>() / polygon.area_m2();
-        let n = 64;
+        let n = 256;
         let mut mean = DVec3::ZERO;
         for i in 0..n * n {
             let u = [(f64::from(i % n) + 0.5) / f64::from(n), (f64::from(i / n) + 0.5) / f64::from(n)];

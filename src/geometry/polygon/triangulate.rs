@@ -19,6 +19,9 @@ pub(super) fn edges_that_meet(p: &[[f64; 2]]) -> Option<(usize, usize)> {
         if a == b || (turn(a, b, next) == 0.0 && dot(b, a, next) > 0.0) {
             return Some((i, (i + 1) % n));
         }
+    }
+    for i in 0..n {
+        let (a, b) = edge(i);
         for j in i + 2..n {
             if i == 0 && j == n - 1 {
                 continue;
