@@ -116,7 +116,9 @@ fn foreign_crates_come_in_through_their_doors() {
                 // `serde_json` in tests that read reference cases is no door: tests are not shipped.
                 let test = file.ends_with("tests.rs") || file.contains("/tests/");
                 // A module of ours may bear the name of a crate.
-                let ours = content.contains(&format!("::{name}::")) || file.starts_with("src/bin/") && name == "csv" || content.contains("use super::");
+                let ours = content.contains(&format!("::{name}::"))
+                    || file.starts_with("src/bin/") && name == "csv"
+                    || content.contains("use super::");
                 if used && !test && !ours && !doors.iter().any(|door| file.starts_with(door)) {
                     wrong.push(format!("{file}:{line}: `{name}` belongs to {}", doors.join(", ")));
                 }
@@ -140,11 +142,8 @@ fn files_stay_short() {
 #[test]
 fn nothing_is_unsafe_outside_one_file() {
     let words = |line: &str| line.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|w| w == "unsafe");
-    let found: Vec<String> = files_below("src", "rs")
-        .iter()
-        .filter(|(_, text)| code(text).any(|(_, l)| words(l)))
-        .map(|(file, _)| file.clone())
-        .collect();
+    let found: Vec<String> =
+        files_below("src", "rs").iter().filter(|(_, text)| code(text).any(|(_, l)| words(l))).map(|(file, _)| file.clone()).collect();
     assert_eq!(found, ["src/geometry/bvh/avx2.rs"]);
 }
 

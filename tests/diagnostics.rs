@@ -4,6 +4,8 @@
 //! `scenes/NAME.expected`. With `ETENDUE_REWRITE_EXPECTED=1` the expectations are written anew; read each of them then as a stranger
 //! would: what is wrong, where, what is allowed, what to type instead.
 
+#![allow(clippy::unwrap_used)]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

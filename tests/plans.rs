@@ -112,10 +112,12 @@ fn the_plans_are_explained_as_the_pages_say() {
 fn every_rule_has_a_page_that_shows_what_it_does() {
     for rule in rule_names() {
         let name = format!("{rule}.md");
-        let page = fs::read_to_string(root().join(FOLDER).join(&name)).unwrap_or_else(|_| panic!("the rule `{rule}` has no page {FOLDER}/{name}"));
+        let page =
+            fs::read_to_string(root().join(FOLDER).join(&name)).unwrap_or_else(|_| panic!("the rule `{rule}` has no page {FOLDER}/{name}"));
         let (_, plans) = written(&name, &page);
         let with = plans.get("explain").unwrap_or_else(|| panic!("{name}: no block `explain`"));
-        let without = plans.get(&format!("explain --without {rule}")).unwrap_or_else(|| panic!("{name}: no block `explain --without {rule}`"));
+        let without =
+            plans.get(&format!("explain --without {rule}")).unwrap_or_else(|| panic!("{name}: no block `explain --without {rule}`"));
         let without: String = without.lines().filter(|line| !line.starts_with("switched off:")).map(|line| format!("{line}\n")).collect();
         assert_ne!(*with, without, "{name}: the rule changes nothing");
         // Rules that leave out or narrow are named with what they did; a choice shows in the method.

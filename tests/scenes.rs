@@ -11,6 +11,8 @@
 //! 0.01/COMPARISONS, two-sided, with Student's t for the degrees of freedom of the joint uncertainty (k ≈ 4.2 for many, 5.5 for 15).
 //! A grid is compared point by point and by its mean, which shows a bias that no single point would.
 
+#![allow(clippy::unwrap_used)]
+
 mod disk;
 
 use std::collections::BTreeSet;
@@ -44,47 +46,79 @@ fn law(file: &'static str, samples: [u64; 2], exact: &[(&'static str, usize, &'s
 
 fn laws() -> Vec<Law> {
     vec![
-        law("photometric-bench.ron", [1024, 1024], &[1.0, 2.0, 3.0, 4.0, 5.0].map(|r: f64| ("meter", r as usize - 1, "E_v", 1000.0 / (r * r)))),
-        law("cosine-law.ron", [1024, 1024], &[
-            ("0 deg", 0, "E_v", 100.0),
-            ("30 deg", 0, "E_v", 50.0 * 3f64.sqrt()),
-            ("60 deg", 0, "E_v", 50.0),
-            ("90 deg", 0, "E_v", 0.0),
-            ("120 deg", 0, "E_v", 0.0),
-        ]),
-        law("disc-source.ron", [1024, 4096], &[
-            ("on the axis", 0, "E_v", disc(0.0, 0.1)),
-            ("on the axis", 1, "E_v", disc(0.0, 0.2)),
-            ("on the axis", 2, "E_v", disc(0.0, 1.0)),
-            ("beside it", 0, "E_v", disc(0.1, 0.1)),
-            ("beside it", 1, "E_v", disc(0.3, 0.1)),
-        ]),
-        law("sphere-source-sunk.ron", [1024, 4096], &[
-            ("meter", 0, "E_v", PI * 1000.0 * 0.25 * 0.5),
-            ("meter", 1, "E_v", sunk_sphere(75.0)),
-            ("meter", 2, "E_v", 1000.0 * (PI / 6.0 - 0.5 * 0.75f64.sqrt())),
-            ("meter", 3, "E_v", sunk_sphere(105.0)),
-            ("meter", 4, "E_v", 0.0),
-        ]),
-        law("overcast-sky.ron", [16384, 4096], &[
-            ("ground", 0, "E_v", 10_000.0 * (1.0 - wall_before_meter(1.0))),
-            ("ground", 1, "E_v", 10_000.0 * (1.0 - wall_before_meter(3.0))),
-            ("ground", 2, "E_v", 10_000.0 * (1.0 - wall_before_meter(10.0))),
-            ("roof", 0, "E_v", 10_000.0),
-        ]),
-        law("laser-line.ron", [1024, 1024], &[
-            ("open meter", 0, "E_e", 2.0),
-            ("open meter", 0, "E_v", 2.0 * 683.002 * 0.235_334_4),
-            ("behind a blue filter", 0, "E_v", 0.0),
-            ("behind a neutral filter", 0, "E_v", 0.2 * 683.002 * 0.235_334_4),
-        ]),
-        law("narrow-acceptance.ron", [1024, 16384], &[
-            ("not filled", 0, "L_e", 1000.0 * coaxial_discs(10.0)),
-            ("not filled", 1, "L_e", 1000.0 * coaxial_discs(5.0)),
-            ("filled", 0, "L_e", 1000.0),
-            ("filled", 1, "L_e", 1000.0),
-        ]),
-        law("tiny-source.ron", [1024, 4096], &[("meter", 0, "E_v", 1.01853 * 0.75f64.sqrt() * 1e9 * PI * 1.784_124_116_152_77e-5f64.powi(2))]),
+        law(
+            "photometric-bench.ron",
+            [1024, 1024],
+            &[1.0, 2.0, 3.0, 4.0, 5.0].map(|r: f64| ("meter", r as usize - 1, "E_v", 1000.0 / (r * r))),
+        ),
+        law(
+            "cosine-law.ron",
+            [1024, 1024],
+            &[
+                ("0 deg", 0, "E_v", 100.0),
+                ("30 deg", 0, "E_v", 50.0 * 3f64.sqrt()),
+                ("60 deg", 0, "E_v", 50.0),
+                ("90 deg", 0, "E_v", 0.0),
+                ("120 deg", 0, "E_v", 0.0),
+            ],
+        ),
+        law(
+            "disc-source.ron",
+            [1024, 4096],
+            &[
+                ("on the axis", 0, "E_v", disc(0.0, 0.1)),
+                ("on the axis", 1, "E_v", disc(0.0, 0.2)),
+                ("on the axis", 2, "E_v", disc(0.0, 1.0)),
+                ("beside it", 0, "E_v", disc(0.1, 0.1)),
+                ("beside it", 1, "E_v", disc(0.3, 0.1)),
+            ],
+        ),
+        law(
+            "sphere-source-sunk.ron",
+            [1024, 4096],
+            &[
+                ("meter", 0, "E_v", PI * 1000.0 * 0.25 * 0.5),
+                ("meter", 1, "E_v", sunk_sphere(75.0)),
+                ("meter", 2, "E_v", 1000.0 * (PI / 6.0 - 0.5 * 0.75f64.sqrt())),
+                ("meter", 3, "E_v", sunk_sphere(105.0)),
+                ("meter", 4, "E_v", 0.0),
+            ],
+        ),
+        law(
+            "overcast-sky.ron",
+            [16384, 4096],
+            &[
+                ("ground", 0, "E_v", 10_000.0 * (1.0 - wall_before_meter(1.0))),
+                ("ground", 1, "E_v", 10_000.0 * (1.0 - wall_before_meter(3.0))),
+                ("ground", 2, "E_v", 10_000.0 * (1.0 - wall_before_meter(10.0))),
+                ("roof", 0, "E_v", 10_000.0),
+            ],
+        ),
+        law(
+            "laser-line.ron",
+            [1024, 1024],
+            &[
+                ("open meter", 0, "E_e", 2.0),
+                ("open meter", 0, "E_v", 2.0 * 683.002 * 0.235_334_4),
+                ("behind a blue filter", 0, "E_v", 0.0),
+                ("behind a neutral filter", 0, "E_v", 0.2 * 683.002 * 0.235_334_4),
+            ],
+        ),
+        law(
+            "narrow-acceptance.ron",
+            [1024, 16384],
+            &[
+                ("not filled", 0, "L_e", 1000.0 * coaxial_discs(10.0)),
+                ("not filled", 1, "L_e", 1000.0 * coaxial_discs(5.0)),
+                ("filled", 0, "L_e", 1000.0),
+                ("filled", 1, "L_e", 1000.0),
+            ],
+        ),
+        law(
+            "tiny-source.ron",
+            [1024, 4096],
+            &[("meter", 0, "E_v", 1.01853 * 0.75f64.sqrt() * 1e9 * PI * 1.784_124_116_152_77e-5f64.powi(2))],
+        ),
         law("ideal-integrating-sphere.ron", [1024, 4096], &[("port", 0, "E_v", 1000.0 / (4.0 * PI * 0.0625 * 0.02))]),
         Law {
             // Balance of energy with the same irradiance on every surface.
@@ -118,10 +152,8 @@ fn sunk_sphere(beta_deg: f64) -> f64 {
     let n = 100_000;
     let ring = |a: f64| {
         let (mean, swing) = (c * a.cos(), s * a.sin());
-        let seen = match (-mean / swing).clamp(-1.0, 1.0).acos() {
-            phi => 2.0 * (mean * phi + swing * phi.sin()),
-        };
-        seen * a.sin()
+        let phi = (-mean / swing).clamp(-1.0, 1.0).acos();
+        2.0 * (mean * phi + swing * phi.sin()) * a.sin()
     };
     let step = PI / 6.0 / f64::from(n);
     (0..n).map(|k| ring((f64::from(k) + 0.5) * step) * step).sum::<f64>() * 1000.0
@@ -170,7 +202,7 @@ fn defect(r: &Reading) -> Option<String> {
         "no unit"
     } else if !(r.value.is_finite() && u.is_finite() && r.expanded.expanded_uncertainty.is_finite()) {
         "not finite"
-    } else if r.value != 0.0 && !(u > 0.0) {
+    } else if r.value != 0.0 && u <= 0.0 {
         "light without an uncertainty"
     } else if r.value == 0.0 && r.notes.is_empty() {
         "zero without a note"
@@ -225,7 +257,10 @@ fn planned_and_naive_readings_agree() {
             compared += 1;
             let allowed = allowance(&[spread(p), spread(n)]);
             if (p.value - n.value).abs() > allowed {
-                wrong.push(format!("{}: {} [{}] {}: {} planned, {} naive, allowed {allowed}", law.file, p.instrument, p.index, p.channel, p.value, n.value));
+                wrong.push(format!(
+                    "{}: {} [{}] {}: {} planned, {} naive, allowed {allowed}",
+                    law.file, p.instrument, p.index, p.channel, p.value, n.value
+                ));
             }
         }
         for instrument in scene.instruments.iter().filter(|i| i.poses.len() >= 16) {
@@ -259,7 +294,15 @@ fn replicates_that_agree_by_their_strata_do_not_pass_for_exact() {
 
 #[test]
 fn what_is_left_out_is_not_done() {
-    for file in ["photometric-bench.ron", "cosine-law.ron", "disc-source.ron", "sphere-source-sunk.ron", "ideal-integrating-sphere.ron", "laser-line.ron", "narrow-acceptance.ron"] {
+    for file in [
+        "photometric-bench.ron",
+        "cosine-law.ron",
+        "disc-source.ron",
+        "sphere-source-sunk.ron",
+        "ideal-integrating-sphere.ron",
+        "laser-line.ron",
+        "narrow-acceptance.ron",
+    ] {
         assert_eq!(read(&scene(file), false, 1024, 0).counters, Counters::default(), "{file}");
     }
     for law in laws() {
@@ -317,10 +360,29 @@ fn every_file_says_what_it_is() {
         let missing: Vec<&str> = wanted.iter().copied().filter(|w| !header.contains(w)).collect();
         (!missing.is_empty()).then(|| format!("{file}: {}", missing.join(", ")))
     };
-    let curves = ["# name:", "# quantity:", "# unit:", "# range:", "# step:", "# interpolation:", "# source:", "# licence:", "# prepared_by:", "# sha256:"];
+    let curves = [
+        "# name:",
+        "# quantity:",
+        "# unit:",
+        "# range:",
+        "# step:",
+        "# interpolation:",
+        "# source:",
+        "# licence:",
+        "# prepared_by:",
+        "# sha256:",
+    ];
     let mut missing = Vec::new();
-    missing.extend(files_in("scenes", &[".ron"]).iter().filter_map(|f| lacks(&format!("scenes/{f}"), &["What it shows:", "Expected:", "losed form", "Run: etendue measure scenes/"])));
-    missing.extend(files_in("scenes", &[".obj"]).iter().filter_map(|f| lacks(&format!("scenes/{f}"), &["unit:", "orientation:", "source:", "licence:"])));
+    missing.extend(
+        files_in("scenes", &[".ron"])
+            .iter()
+            .filter_map(|f| lacks(&format!("scenes/{f}"), &["What it shows:", "Expected:", "losed form", "Run: etendue measure scenes/"])),
+    );
+    missing.extend(
+        files_in("scenes", &[".obj"])
+            .iter()
+            .filter_map(|f| lacks(&format!("scenes/{f}"), &["unit:", "orientation:", "source:", "licence:"])),
+    );
     missing.extend(files_in("sensors", &[".ron"]).iter().filter_map(|f| lacks(&format!("sensors/{f}"), &["What it shows:", "Source:"])));
     for folder in ["scenes", "sensors", "sensors/class-b", "sensors/directional-phi"] {
         missing.extend(files_in(folder, &[".csv"]).iter().filter_map(|f| lacks(&format!("{folder}/{f}"), &curves)));

@@ -2,6 +2,8 @@
 //!
 //! Each scene has a truth in closed form that the sampled method does not use: the method is forced by `naive` or by an occluder.
 
+#![allow(clippy::print_stdout)]
+
 use etendue::estimate::closed_form::polygon::polygon_two_sided;
 use etendue::estimate::{Stop, Watch};
 use etendue::math::DVec3;
@@ -19,7 +21,8 @@ fn read(scene: &Scene, plan: &Plan, stop: &Stop, seed: u64) -> Measurement {
     measure(scene, plan, stop, seed, &Watch { now: &|| 0.0, progress: &|_| {} }).expect("a finite reading")
 }
 
-const METER: &str = r#"Sensor(title: "meter", aperture: Point, acceptance: Cosine, channels: [(name: "E", responsivity: 1.0, reads: Irradiance)])"#;
+const METER: &str =
+    r#"Sensor(title: "meter", aperture: Point, acceptance: Cosine, channels: [(name: "E", responsivity: 1.0, reads: Irradiance)])"#;
 
 /// A wall hides part of a uniform sky: π − G of the wall.
 fn hidden_sky() -> (Scene, f64) {
@@ -145,7 +148,12 @@ fn what_nothing_hides_has_no_spread_even_where_shadows_are_tested() {
     let scene = scene(&text);
     let options = PlanOptions { without: vec!["nothing_blocks".into()], ..PlanOptions::default() };
     let reading = read(&scene, &Plan::new(&scene, &options).expect("a plan"), &Stop::default(), 0).readings.remove(0);
-    let exact = read(&scene, &Plan::new(&scene, &PlanOptions { without: options.without.clone(), naive: false }).expect("a plan"), &Stop::default(), 1);
+    let exact = read(
+        &scene,
+        &Plan::new(&scene, &PlanOptions { without: options.without.clone(), naive: false }).expect("a plan"),
+        &Stop::default(),
+        1,
+    );
     assert_eq!(reading.value, exact.readings[0].value, "the formula is left alone whatever the seed");
     // Not an uncertainty of zero: a shadow smaller than the gaps between the samples may have been missed.
     assert!(reading.standard_uncertainty() > 0.0);

@@ -25,11 +25,9 @@ pub(super) fn direct(scene: &Scene, sensor: &Sensor, pose: &Pose, source: &Sourc
     }
     let area = match sensor.aperture {
         Aperture::Point => return Some(at_point(scene, &sensor.acceptance, pose, pose.at, source)),
-        Aperture::Disc { radius_m } => aperture::Aperture::Disc {
-            centre: DVec3::ZERO,
-            radius_u: radius_m * pose.x_axis,
-            radius_v: radius_m * pose.y_axis(),
-        },
+        Aperture::Disc { radius_m } => {
+            aperture::Aperture::Disc { centre: DVec3::ZERO, radius_u: radius_m * pose.x_axis, radius_v: radius_m * pose.y_axis() }
+        }
         Aperture::Rectangle { half_width_m, half_height_m } => {
             let (u, v) = (half_width_m * pose.x_axis, half_height_m * pose.y_axis());
             aperture::Aperture::Parallelogram { corner: -u - v, edge_u: 2.0 * u, edge_v: 2.0 * v }
@@ -58,9 +56,9 @@ pub(super) fn at_point(scene: &Scene, acceptance: &Acceptance, pose: &Pose, at: 
                 elements.iter().map(|&(e, side)| within_cone(&scene.elements[e].shape, side, at, pose.normal, half_angle_rad)).sum()
             };
             match acceptance {
-                Acceptance::Cosine => exact(
-                    elements.iter().map(|&(e, side)| over_hemisphere(&scene.elements[e].shape, side, at, pose.normal)).sum(),
-                ),
+                Acceptance::Cosine => {
+                    exact(elements.iter().map(|&(e, side)| over_hemisphere(&scene.elements[e].shape, side, at, pose.normal)).sum())
+                }
                 Acceptance::Cone { half_angle_rad } => exact(of_cone(*half_angle_rad)),
                 Acceptance::Directional(table) => {
                     let Some((theta, values)) = table.rotationally_symmetric() else {
@@ -132,10 +130,9 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
             (Side::Back, true) => super::closed_form::cone::projected_solid_angle(half_angle_rad),
             _ => 0.0,
         },
-        Shape::Mesh(m) => (0..m.triangle_count() as u32)
-            .filter_map(|t| m.triangle(t))
-            .map(|corners| of_polygon(&facing(&corners, at, side)))
-            .sum(),
+        Shape::Mesh(m) => {
+            (0..m.triangle_count() as u32).filter_map(|t| m.triangle(t)).map(|corners| of_polygon(&facing(&corners, at, side))).sum()
+        }
     }
 }
 

@@ -8,7 +8,6 @@
 //! unbiased. Where nothing hides the source β = 1 and V = 1: the formula comes out without any spread. Where all is hidden, zero
 //! does. Between the two, in the penumbra, most of the variation of g is taken away. Without a formula β = 0.
 
-
 use multiversion::multiversion;
 
 use super::deterministic::at_point;
@@ -163,4 +162,3 @@ pub(super) fn connection(scene: &Scene, world: &World, receiver: &Receiver<'_>, 
     rays.leaving_part[0] = receiver.resting_part;
     (if world.blocked(&rays)[0] { 0.0 } else { g }, 1)
 }
-

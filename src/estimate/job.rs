@@ -193,7 +193,8 @@ impl Job<'_> {
                     let width = self.width();
                     let of_slot = |slot: usize| progress.sums.iter().skip(slot).step_by(width).sum::<f64>() / samples;
                     let largest = (0..width).map(of_slot).fold(0.0, f64::max);
-                    return (spread < mean / samples).then(|| (RULE_OF_THREE * largest / samples, format!("every replicate found the same in {samples} paths")));
+                    return (spread < mean / samples)
+                        .then(|| (RULE_OF_THREE * largest / samples, format!("every replicate found the same in {samples} paths")));
                 }
                 // As if every path had found the brightest reflecting surface, or what the hidden lights would have given.
                 let brightest = scene.survival.iter().copied().fold(0.0, f64::max) * accepted_sr;

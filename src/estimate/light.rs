@@ -31,14 +31,44 @@ use crate::source::{Emitter, Source};
 /// A part of a source that is sampled as a whole.
 #[derive(Clone, Debug)]
 enum Piece {
-    Point { at: DVec3 },
-    Parallel { travels: DVec3 },
+    Point {
+        at: DVec3,
+    },
+    Parallel {
+        travels: DVec3,
+    },
     /// Rectangle: centre ± u ± v.
-    Rectangle { element: u32, centre: DVec3, u: DVec3, v: DVec3, normal: DVec3, area_m2: f64 },
-    Polygon { element: u32, polygon: Polygon, normal: DVec3 },
-    Disc { element: u32, centre: DVec3, u: DVec3, v: DVec3, normal: DVec3, area_m2: f64 },
-    Sphere { element: u32, sphere: Sphere, side: Side },
-    Mesh { element: u32, mesh: Arc<Mesh>, side: Side },
+    Rectangle {
+        element: u32,
+        centre: DVec3,
+        u: DVec3,
+        v: DVec3,
+        normal: DVec3,
+        area_m2: f64,
+    },
+    Polygon {
+        element: u32,
+        polygon: Polygon,
+        normal: DVec3,
+    },
+    Disc {
+        element: u32,
+        centre: DVec3,
+        u: DVec3,
+        v: DVec3,
+        normal: DVec3,
+        area_m2: f64,
+    },
+    Sphere {
+        element: u32,
+        sphere: Sphere,
+        side: Side,
+    },
+    Mesh {
+        element: u32,
+        mesh: Arc<Mesh>,
+        side: Side,
+    },
 }
 
 /// A connection from a receiving point to a light.
@@ -130,14 +160,9 @@ impl Lights {
 
 fn piece(shape: &Shape, element: u32, side: Side) -> Piece {
     match shape {
-        Shape::Rectangle(r) => Piece::Rectangle {
-            element,
-            centre: r.centre,
-            u: r.half_u,
-            v: r.half_v,
-            normal: side.sign() * r.normal(),
-            area_m2: r.area_m2(),
-        },
+        Shape::Rectangle(r) => {
+            Piece::Rectangle { element, centre: r.centre, u: r.half_u, v: r.half_v, normal: side.sign() * r.normal(), area_m2: r.area_m2() }
+        }
         Shape::Polygon(p) => Piece::Polygon { element, polygon: p.clone(), normal: side.sign() * p.normal() },
         Shape::Disc(d) => {
             let (x, y) = crate::math::frame::tangents(d.normal);

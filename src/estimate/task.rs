@@ -150,7 +150,16 @@ impl<'a> Task<'a> {
         for (exact, sum) in exact.iter_mut().zip(&sums) {
             exact.value = sum.value();
         }
-        PoseState { pose, receiver, exact, active, jobs: vec![Progress::default(); self.jobs.len()], counters, standing: Standing::Trial, target_met: true }
+        PoseState {
+            pose,
+            receiver,
+            exact,
+            active,
+            jobs: vec![Progress::default(); self.jobs.len()],
+            counters,
+            standing: Standing::Trial,
+            target_met: true,
+        }
     }
 
     /// The unobstructed light of a sampled source, where a formula gives it.

@@ -28,11 +28,7 @@ impl Ball {
     /// The first place beyond the origin where a lane meets the sphere, as a multiple of the direction; infinite where none.
     #[inline(always)]
     fn meet(&self, rays: &Rays, lane: usize, leaves: bool) -> f64 {
-        let (ox, oy, oz) = (
-            rays.origin.x[lane] - self.centre.x,
-            rays.origin.y[lane] - self.centre.y,
-            rays.origin.z[lane] - self.centre.z,
-        );
+        let (ox, oy, oz) = (rays.origin.x[lane] - self.centre.x, rays.origin.y[lane] - self.centre.y, rays.origin.z[lane] - self.centre.z);
         let (dx, dy, dz) = (rays.direction.x[lane], rays.direction.y[lane], rays.direction.z[lane]);
         let d2 = dx * dx + dy * dy + dz * dz;
         let b = (ox * dx + oy * dy + oz * dz) / d2;

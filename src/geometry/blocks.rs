@@ -53,8 +53,7 @@ impl Block {
         let spans = |flat: &Flat| {
             let edges = [flat.u, flat.v].map(|w| w / w.length_squared());
             let others: Vec<&DVec3> = axes.iter().filter(|a| a.dot(flat.normal).abs() <= SAME * a.length()).collect();
-            others.len() == 2
-                && others.iter().all(|a| edges.iter().filter(|e| ((a.dot(**e)).abs() - 1.0).abs() <= SAME).count() == 1)
+            others.len() == 2 && others.iter().all(|a| edges.iter().filter(|e| ((a.dot(**e)).abs() - 1.0).abs() <= SAME).count() == 1)
         };
         flats.iter().all(spans).then_some(Block { centre, axes, faces })
     }
@@ -62,11 +61,7 @@ impl Block {
     /// Distance and face of the first place where a lane meets the box; infinite where it does not.
     #[inline(always)]
     fn meet(&self, rays: &Rays, lane: usize) -> (f64, u32) {
-        let o = [
-            rays.origin.x[lane] - self.centre.x,
-            rays.origin.y[lane] - self.centre.y,
-            rays.origin.z[lane] - self.centre.z,
-        ];
+        let o = [rays.origin.x[lane] - self.centre.x, rays.origin.y[lane] - self.centre.y, rays.origin.z[lane] - self.centre.z];
         let d = [rays.direction.x[lane], rays.direction.y[lane], rays.direction.z[lane]];
         let leaving = rays.leaving[lane];
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);

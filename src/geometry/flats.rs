@@ -40,11 +40,7 @@ impl Flat {
 /// comparison below refuses.
 #[inline(always)]
 fn meet(flat: &Flat, rays: &Rays, lane: usize) -> (f64, f64, f64) {
-    let (ox, oy, oz) = (
-        rays.origin.x[lane] - flat.centre.x,
-        rays.origin.y[lane] - flat.centre.y,
-        rays.origin.z[lane] - flat.centre.z,
-    );
+    let (ox, oy, oz) = (rays.origin.x[lane] - flat.centre.x, rays.origin.y[lane] - flat.centre.y, rays.origin.z[lane] - flat.centre.z);
     let (dx, dy, dz) = (rays.direction.x[lane], rays.direction.y[lane], rays.direction.z[lane]);
     let (n, u, v) = (&flat.normal, &flat.u, &flat.v);
     let t = -(n.x * ox + n.y * oy + n.z * oz) / (n.x * dx + n.y * dy + n.z * dz);

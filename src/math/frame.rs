@@ -11,10 +11,7 @@ pub fn tangents(normal: DVec3) -> (DVec3, DVec3) {
     let sign = 1f64.copysign(normal.z);
     let a = -1.0 / (sign + normal.z);
     let b = normal.x * normal.y * a;
-    (
-        DVec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
-        DVec3::new(b, sign + normal.y * normal.y * a, -normal.y),
-    )
+    (DVec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x), DVec3::new(b, sign + normal.y * normal.y * a, -normal.y))
 }
 
 /// A direction given in the frame (x, y, normal) of `normal`, in the world.

@@ -160,7 +160,10 @@ fn read(instrument: &Instrument, index: usize, c: usize, pose: &PoseEstimate, es
         } else {
             let mut reasons = left_out.reasons.clone();
             if estimate.exact.terms + estimate.sampled.len() > 0 {
-                reasons.push("in this pose nothing that is computed reaches the sensor from above its horizon, in its acceptance and in its band".to_owned());
+                reasons.push(
+                    "in this pose nothing that is computed reaches the sensor from above its horizon, in its acceptance and in its band"
+                        .to_owned(),
+                );
             } else if reasons.is_empty() {
                 reasons.push("the scene has no source".to_owned());
             }

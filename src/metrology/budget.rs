@@ -55,17 +55,8 @@ pub struct BudgetRow {
 
 impl BudgetRow {
     /// A type A row: `standard_uncertainty` of the mean of replicates with `degrees_of_freedom`.
-    pub fn type_a(
-        source: impl Into<String>,
-        standard_uncertainty: f64,
-        degrees_of_freedom: f64,
-    ) -> Self {
-        Self {
-            source: source.into(),
-            kind: EvaluationKind::A,
-            standard_uncertainty: standard_uncertainty.abs(),
-            degrees_of_freedom,
-        }
+    pub fn type_a(source: impl Into<String>, standard_uncertainty: f64, degrees_of_freedom: f64) -> Self {
+        Self { source: source.into(), kind: EvaluationKind::A, standard_uncertainty: standard_uncertainty.abs(), degrees_of_freedom }
     }
 
     fn type_b(source: impl Into<String>, standard_uncertainty: f64) -> Self {
@@ -101,10 +92,7 @@ impl BudgetRow {
 
     /// This row for a result multiplied by `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            standard_uncertainty: self.standard_uncertainty * factor.abs(),
-            ..self.clone()
-        }
+        Self { standard_uncertainty: self.standard_uncertainty * factor.abs(), ..self.clone() }
     }
 }
 
@@ -151,12 +139,7 @@ impl Budget {
     }
 
     fn root_sum_of_squares(&self, keep: impl Fn(&BudgetRow) -> bool) -> f64 {
-        self.rows
-            .iter()
-            .filter(|row| keep(row))
-            .fold(0.0, |sum, row| {
-                sum_in_quadrature(sum, row.standard_uncertainty)
-            })
+        self.rows.iter().filter(|row| keep(row)).fold(0.0, |sum, row| sum_in_quadrature(sum, row.standard_uncertainty))
     }
 
     /// Effective degrees of freedom `ν_eff` (Welch–Satterthwaite); infinite without rows.
@@ -166,27 +149,16 @@ impl Budget {
     pub fn effective_degrees_of_freedom(&self) -> f64 {
         let combined = self.combined_standard_uncertainty();
         if combined == 0.0 {
-            return self
-                .rows
-                .iter()
-                .map(|row| row.degrees_of_freedom)
-                .fold(f64::INFINITY, f64::min);
+            return self.rows.iter().map(|row| row.degrees_of_freedom).fold(f64::INFINITY, f64::min);
         }
-        let inverse: f64 = self
-            .rows
-            .iter()
-            .map(|row| (row.standard_uncertainty / combined).powi(4) / row.degrees_of_freedom)
-            .sum();
+        let inverse: f64 = self.rows.iter().map(|row| (row.standard_uncertainty / combined).powi(4) / row.degrees_of_freedom).sum();
         1.0 / inverse
     }
 
     /// Coverage factor `k` for `coverage_probability`, between zero and one: the quantile of Student's distribution at
     /// the effective degrees of freedom. `None` when the probability or the degrees of freedom are out of range.
     pub fn coverage_factor(&self, coverage_probability: f64) -> Option<f64> {
-        student_t_quantile(
-            0.5 + 0.5 * coverage_probability,
-            self.effective_degrees_of_freedom(),
-        )
+        student_t_quantile(0.5 + 0.5 * coverage_probability, self.effective_degrees_of_freedom())
     }
 
     /// Expanded uncertainty at 95 %. `None` when no finite `u_c` or no degrees of freedom exist.
@@ -209,31 +181,21 @@ impl Budget {
             coverage_probability,
             coverage_factor,
             // An uncertainty of zero stays zero even when k is beyond the range of f64.
-            expanded_uncertainty: if combined == 0.0 {
-                0.0
-            } else {
-                coverage_factor * combined
-            },
+            expanded_uncertainty: if combined == 0.0 { 0.0 } else { coverage_factor * combined },
             degrees_of_freedom: self.effective_degrees_of_freedom(),
         })
     }
 
     /// The budget of the result multiplied by `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            rows: self.rows.iter().map(|row| row.scaled(factor)).collect(),
-        }
+        Self { rows: self.rows.iter().map(|row| row.scaled(factor)).collect() }
     }
 }
 
 /// `√(a² + b²)` without squares that leave the range; NaN when either is NaN.
 fn sum_in_quadrature(a: f64, b: f64) -> f64 {
     // IEEE hypot returns infinity for an infinite and a NaN argument; an unknown row has to stay visible.
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else {
-        a.hypot(b)
-    }
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.hypot(b) }
 }
 
 #[cfg(test)]

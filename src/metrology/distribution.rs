@@ -55,11 +55,7 @@ pub fn student_t_quantile(p: f64, dof: f64) -> Option<f64> {
         return Some(0.0);
     }
     let (tail, sign) = if p < 0.5 { (p, -1.0) } else { (1.0 - p, 1.0) };
-    let t = if dof >= MANY_DEGREES_STUDENT {
-        student_t_of_normal(-normal_quantile(tail)?, dof)
-    } else {
-        student_t_of_tail(tail, dof)
-    };
+    let t = if dof >= MANY_DEGREES_STUDENT { student_t_of_normal(-normal_quantile(tail)?, dof) } else { student_t_of_tail(tail, dof) };
     Some(sign * t)
 }
 
@@ -148,8 +144,7 @@ pub fn chi_squared_quantile(p: f64, dof: f64) -> Option<f64> {
 fn chi_squared_of_normal(z: f64, dof: f64) -> f64 {
     let w = z * z;
     let root = (2.0 * dof).sqrt();
-    dof + root * z + 2.0 / 3.0 * (w - 1.0) + z * (w - 7.0) / (9.0 * root)
-        - ((6.0 * w + 14.0) * w - 32.0) / (405.0 * dof)
+    dof + root * z + 2.0 / 3.0 * (w - 1.0) + z * (w - 7.0) / (9.0 * root) - ((6.0 * w + 14.0) * w - 32.0) / (405.0 * dof)
         + z * ((9.0 * w + 256.0) * w - 433.0) / (4860.0 * SQRT_2 * dof * dof.sqrt())
 }
 
@@ -169,11 +164,7 @@ fn increasing_root(residual: impl Fn(f64) -> (f64, f64), mut low: f64, mut high:
         if (newton - at).abs() <= f64::EPSILON * at.abs().max(1.0) {
             return newton;
         }
-        let next = if newton > low && newton < high {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if next == at {
             return at;
         }

@@ -118,15 +118,12 @@ impl Moments {
 
     /// Experimental standard deviation `s` of one value, with n − 1 degrees of freedom; `None` below two values.
     pub fn standard_deviation(&self) -> Option<f64> {
-        (self.count > 1).then(|| {
-            (self.scaled_m2 / (self.count - 1) as f64).sqrt() * power_of_two(self.exponent)
-        })
+        (self.count > 1).then(|| (self.scaled_m2 / (self.count - 1) as f64).sqrt() * power_of_two(self.exponent))
     }
 
     /// Standard uncertainty of the mean, `s / √n` (GUM 4.2.3); `None` below two values.
     pub fn standard_uncertainty_of_mean(&self) -> Option<f64> {
-        self.standard_deviation()
-            .map(|s| s / (self.count as f64).sqrt())
+        self.standard_deviation().map(|s| s / (self.count as f64).sqrt())
     }
 
     /// Experimental variance `s²`; `None` below two values. Leaves the range of `f64` for values beyond 1e±154, where
@@ -170,10 +167,7 @@ mod tests {
         let m: Moments = [2.0, 4.0, 6.0, 8.0, 10.0].into_iter().collect();
         assert_eq!(m.mean(), Some(6.0));
         assert_eq!(m.standard_deviation(), Some(10f64.sqrt()));
-        assert_eq!(
-            m.standard_uncertainty_of_mean(),
-            Some(10f64.sqrt() / 5f64.sqrt())
-        );
+        assert_eq!(m.standard_uncertainty_of_mean(), Some(10f64.sqrt() / 5f64.sqrt()));
     }
 
     #[test]
@@ -202,11 +196,7 @@ mod tests {
         for first in [0.0, 5e-324, 1e-300] {
             let m: Moments = [first, 1e300].into_iter().collect();
             assert!(close(m.mean().unwrap(), 5e299, 5e299));
-            assert!(close(
-                m.standard_deviation().unwrap(),
-                1e300 / 2f64.sqrt(),
-                1e300
-            ));
+            assert!(close(m.standard_deviation().unwrap(), 1e300 / 2f64.sqrt(), 1e300));
         }
     }
 
@@ -220,10 +210,7 @@ mod tests {
 
     #[test]
     fn a_small_spread_on_a_large_mean_keeps_its_digits() {
-        let m: Moments = [4.0, 7.0, 13.0, 16.0]
-            .into_iter()
-            .map(|x| x + 1e9)
-            .collect();
+        let m: Moments = [4.0, 7.0, 13.0, 16.0].into_iter().map(|x| x + 1e9).collect();
         assert_eq!(m.variance().map(f64::round), Some(30.0));
         assert!(close(m.variance().unwrap(), 30.0, 30.0));
     }

@@ -36,11 +36,7 @@ impl Replicates {
 
     /// From the moments of the replicates. `None` below two replicates.
     pub fn from_moments(moments: &Moments) -> Option<Self> {
-        Some(Self {
-            count: moments.count(),
-            mean: moments.mean()?,
-            standard_uncertainty: moments.standard_uncertainty_of_mean()?,
-        })
+        Some(Self { count: moments.count(), mean: moments.mean()?, standard_uncertainty: moments.standard_uncertainty_of_mean()? })
     }
 
     /// Degrees of freedom `ν = R − 1`.
@@ -51,8 +47,7 @@ impl Replicates {
     /// Upper 95 % limit of the standard uncertainty, in the unit of the replicates.
     pub fn upper_standard_uncertainty(&self) -> f64 {
         // Infinite below two replicates: nothing is known of their spread.
-        self.standard_uncertainty
-            * spread_upper_factor(self.degrees_of_freedom()).unwrap_or(f64::INFINITY)
+        self.standard_uncertainty * spread_upper_factor(self.degrees_of_freedom()).unwrap_or(f64::INFINITY)
     }
 }
 
@@ -113,12 +108,8 @@ mod tests {
             let samples = 4000;
             let covered = (0..samples)
                 .filter(|sample| {
-                    let normal: Vec<f64> = (0..size)
-                        .map(|i| normal_quantile(uniform(sample * size + i + 1)).unwrap())
-                        .collect();
-                    let limit = Replicates::evaluate(&normal)
-                        .unwrap()
-                        .upper_standard_uncertainty();
+                    let normal: Vec<f64> = (0..size).map(|i| normal_quantile(uniform(sample * size + i + 1)).unwrap()).collect();
+                    let limit = Replicates::evaluate(&normal).unwrap().upper_standard_uncertainty();
                     limit >= 1.0 / (size as f64).sqrt()
                 })
                 .count();

@@ -40,31 +40,18 @@ impl Rounded {
             return None;
         }
         if uncertainty == 0.0 {
-            return Some(Self {
-                value: shortest(value),
-                uncertainty: "0".into(),
-            });
+            return Some(Self { value: shortest(value), uncertainty: "0".into() });
         }
         let (digits, leading) = significant_digits(uncertainty, UNCERTAINTY_DIGITS);
         let last = leading - UNCERTAINTY_DIGITS + 1;
-        let uncertainty_text = Decimal {
-            negative: false,
-            digits,
-            last,
-        };
+        let uncertainty_text = Decimal { negative: false, digits, last };
         if value != 0.0 && leading_place(value) - last >= DOUBLE_DIGITS {
-            return Some(Self {
-                value: shortest(value),
-                uncertainty: uncertainty_text.written(),
-            });
+            return Some(Self { value: shortest(value), uncertainty: uncertainty_text.written() });
         }
         let value_text = Decimal::rounded_at(value, last);
         let leading = uncertainty_text.leading().max(value_text.leading());
         let exponent = if FIXED.contains(&leading) { 0 } else { leading };
-        Some(Self {
-            value: value_text.with_exponent(exponent),
-            uncertainty: uncertainty_text.with_exponent(exponent),
-        })
+        Some(Self { value: value_text.with_exponent(exponent), uncertainty: uncertainty_text.with_exponent(exponent) })
     }
 
     /// The result with its unit: "(512.34 ± 0.42) lx". An empty unit or the unit "1" leaves the plain form.
@@ -113,12 +100,7 @@ pub fn format_significant(x: f64, digits: usize) -> String {
     }
     let count = digits.clamp(1, DOUBLE_DIGITS as usize) as i32;
     let (digits, leading) = significant_digits(x, count);
-    Decimal {
-        negative: x < 0.0,
-        digits,
-        last: leading - count + 1,
-    }
-    .written()
+    Decimal { negative: x < 0.0, digits, last: leading - count + 1 }.written()
 }
 
 /// The shortest text that reads back as `x`, which is finite.
@@ -139,10 +121,7 @@ fn leading_place(x: f64) -> i32 {
 
 /// The exponent of a number that was written in scientific form.
 fn exponent_of(scientific: &str) -> i32 {
-    scientific
-        .split_once('e')
-        .and_then(|(_, exponent)| exponent.parse().ok())
-        .unwrap_or(0)
+    scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
 /// `count` significant digits of |x|, correctly rounded, and the power of ten of the first of them.
@@ -150,11 +129,7 @@ fn significant_digits(x: f64, count: i32) -> (String, i32) {
     let decimals = (count - 1).max(0) as usize;
     let text = format!("{:.decimals$e}", x.abs());
     let leading = exponent_of(&text);
-    let digits = text
-        .chars()
-        .take_while(|&c| c != 'e')
-        .filter(char::is_ascii_digit)
-        .collect();
+    let digits = text.chars().take_while(|&c| c != 'e').filter(char::is_ascii_digit).collect();
     (digits, leading)
 }
 
@@ -168,11 +143,7 @@ struct Decimal {
 impl Decimal {
     /// `x` rounded to the decimal place 10^last.
     fn rounded_at(x: f64, last: i32) -> Self {
-        let zero = Self {
-            negative: false,
-            digits: "0".into(),
-            last,
-        };
+        let zero = Self { negative: false, digits: "0".into(), last };
         if x == 0.0 {
             return zero;
         }
@@ -189,11 +160,7 @@ impl Decimal {
         } else {
             return zero;
         };
-        Self {
-            negative: x < 0.0,
-            digits,
-            last,
-        }
+        Self { negative: x < 0.0, digits, last }
     }
 
     /// Power of ten of the leading digit; for zero that of its only digit.
@@ -222,11 +189,7 @@ impl Decimal {
             text.insert(text.len() - decimals, '.');
         }
         let sign = if self.negative { "-" } else { "" };
-        if exponent == 0 {
-            format!("{sign}{text}")
-        } else {
-            format!("{sign}{text}e{exponent}")
-        }
+        if exponent == 0 { format!("{sign}{text}") } else { format!("{sign}{text}e{exponent}") }
     }
 }
 
@@ -266,10 +229,7 @@ mod tests {
         assert_eq!(together(3.0e-9, 2.0e-7), "(0.0 ± 2.0)e-7");
         assert_eq!(together(-1.5e300, 2.5e298), "(-1.500 ± 0.025)e300");
         let r = Rounded::new(1.234_52e-9, 1.2e-12).unwrap();
-        assert_eq!(
-            [r.value.as_str(), r.uncertainty.as_str()],
-            ["1.2345e-9", "0.0012e-9"]
-        );
+        assert_eq!([r.value.as_str(), r.uncertainty.as_str()], ["1.2345e-9", "0.0012e-9"]);
     }
 
     #[test]
@@ -295,13 +255,7 @@ mod tests {
 
     #[test]
     fn what_is_no_result_has_no_text() {
-        for (v, u) in [
-            (f64::NAN, 1.0),
-            (1.0, f64::NAN),
-            (f64::INFINITY, 1.0),
-            (1.0, f64::INFINITY),
-            (1.0, -1.0),
-        ] {
+        for (v, u) in [(f64::NAN, 1.0), (1.0, f64::NAN), (f64::INFINITY, 1.0), (1.0, f64::INFINITY), (1.0, -1.0)] {
             assert_eq!(Rounded::new(v, u), None);
         }
     }

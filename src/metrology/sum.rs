@@ -19,20 +19,13 @@ pub struct CompensatedSum {
 impl CompensatedSum {
     /// The sum of nothing.
     pub const fn new() -> Self {
-        Self {
-            sum: 0.0,
-            compensation: 0.0,
-        }
+        Self { sum: 0.0, compensation: 0.0 }
     }
 
     /// Adds one term.
     pub fn add(&mut self, term: f64) {
         let total = self.sum + term;
-        self.compensation += if self.sum.abs() >= term.abs() {
-            (self.sum - total) + term
-        } else {
-            (term - total) + self.sum
-        };
+        self.compensation += if self.sum.abs() >= term.abs() { (self.sum - total) + term } else { (term - total) + self.sum };
         self.sum = total;
     }
 
@@ -76,18 +69,13 @@ mod tests {
 
     #[test]
     fn a_million_thousandths_beside_ten_million_million_are_kept() {
-        let large_first: CompensatedSum = std::iter::once(1e13)
-            .chain(std::iter::repeat_n(1e-3, 1_000_000))
-            .collect();
+        let large_first: CompensatedSum = std::iter::once(1e13).chain(std::iter::repeat_n(1e-3, 1_000_000)).collect();
         assert_eq!(large_first.value(), 1e13 + 1e3);
         let mut large_last: CompensatedSum = std::iter::repeat_n(1e-3, 1_000_000).collect();
         large_last.add(1e13);
         assert_eq!(large_last.value(), 1e13 + 1e3);
         let plain = (0..1_000_000).fold(1e13, |s, _| s + 1e-3);
-        assert!(
-            (plain - 1e13 - 1e3f64).abs() > 1.0,
-            "a plain sum loses them"
-        );
+        assert!((plain - 1e13 - 1e3f64).abs() > 1.0, "a plain sum loses them");
     }
 
     #[test]

@@ -14,7 +14,9 @@ pub enum PlanError {
         known: Vec<&'static str>,
     },
     /// A rule lost or invented terms: an error of the program.
-    #[error("internal error: after the rule `{rule}` the plan holds {found} terms instead of {expected}, or not the same ones; please report this")]
+    #[error(
+        "internal error: after the rule `{rule}` the plan holds {found} terms instead of {expected}, or not the same ones; please report this"
+    )]
     NotAPartition {
         /// The rule after which it was noticed.
         rule: &'static str,

@@ -79,7 +79,9 @@ impl Plan {
         if let (Some(s), true) = (&self.spectral[instrument], mine(Method::Paths)) {
             let nodes = s.wavelengths_nm.len();
             let what = match (s.wavelengths_nm.first(), s.wavelengths_nm.last()) {
-                (Some(_), Some(_)) if nodes == 1 => "one wavelength carries all: every reflectance is the same at all wavelengths that count".to_owned(),
+                (Some(_), Some(_)) if nodes == 1 => {
+                    "one wavelength carries all: every reflectance is the same at all wavelengths that count".to_owned()
+                }
                 (Some(a), Some(b)) => {
                     let share = format_significant(100.0 * s.residual, 2);
                     format!("{nodes} wavelengths from {a:.0} nm to {b:.0} nm; what lies between may change reflected light by {share} %")
@@ -109,7 +111,12 @@ impl Plan {
                 (_, Visibility::Clear, _) => ", nothing can block",
                 (_, Visibility::Tested, _) => ", shadow rays",
             };
-            Row { verb: "kept", transport: transport(&term.id), sources: names(scene, &sources), what: format!("{}{sight}", term.method.words()) }
+            Row {
+                verb: "kept",
+                transport: transport(&term.id),
+                sources: names(scene, &sources),
+                what: format!("{}{sight}", term.method.words()),
+            }
         };
         groups.into_iter().map(row).collect()
     }

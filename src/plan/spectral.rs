@@ -40,8 +40,7 @@ pub fn plan_wavelengths(scene: &Scene, plan: &Plan) -> Vec<Option<SpectralPlan>>
 }
 
 fn plan_instrument(scene: &Scene, plan: &Plan, instrument: usize) -> Option<SpectralPlan> {
-    let kept: Vec<(usize, usize)> =
-        plan.terms_of(instrument, Transport::Reflected).map(|t| (t.id.channel(), t.id.source())).collect();
+    let kept: Vec<(usize, usize)> = plan.terms_of(instrument, Transport::Reflected).map(|t| (t.id.channel(), t.id.source())).collect();
     if kept.is_empty() {
         return None;
     }

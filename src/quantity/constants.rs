@@ -52,18 +52,14 @@ mod tests {
     use std::f64::consts::PI;
 
     fn assert_close(found: f64, expected: f64, relative: f64) {
-        assert!(
-            (found - expected).abs() <= relative * expected.abs(),
-            "found {found:e}, expected {expected:e}"
-        );
+        assert!((found - expected).abs() <= relative * expected.abs(), "found {found:e}, expected {expected:e}");
     }
 
     #[test]
     fn derived_constants_follow_from_the_exact_ones() {
         let c2 = PLANCK_J_S * SPEED_OF_LIGHT_M_S / BOLTZMANN_J_K;
         assert_close(SECOND_RADIATION_CONSTANT_M_K, c2, 4e-16);
-        let sigma = 2.0 * PI.powi(5) * BOLTZMANN_J_K.powi(4)
-            / (15.0 * PLANCK_J_S.powi(3) * SPEED_OF_LIGHT_M_S.powi(2));
+        let sigma = 2.0 * PI.powi(5) * BOLTZMANN_J_K.powi(4) / (15.0 * PLANCK_J_S.powi(3) * SPEED_OF_LIGHT_M_S.powi(2));
         assert_close(STEFAN_BOLTZMANN_W_M2_K4, sigma, 2e-15);
         // CODATA 2018 prints 1.054 571 817...e-34 J s.
         assert_close(REDUCED_PLANCK_J_S, 1.054_571_817e-34, 1e-9);

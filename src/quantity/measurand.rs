@@ -168,10 +168,7 @@ mod tests {
     #[test]
     fn illuminance_is_in_lux() {
         let words = Measurand::Illuminance;
-        assert_eq!(
-            [words.name(), words.symbol(), words.unit()],
-            ["illuminance", "E_v", "lx"]
-        );
+        assert_eq!([words.name(), words.symbol(), words.unit()], ["illuminance", "E_v", "lx"]);
         assert_eq!(words.with_unit("25"), "25 lx");
         assert_eq!(Measurand::PhotonNumber.with_unit("25"), "25");
     }
@@ -186,16 +183,10 @@ mod tests {
 
     #[test]
     fn other_systems_bring_their_own_words() {
-        let melanopic = Measurand::Weighted {
-            name: "melanopic equivalent daylight illuminance".into(),
-            symbol: "E_v,mel".into(),
-            unit: "lx".into(),
-        };
+        let melanopic =
+            Measurand::Weighted { name: "melanopic equivalent daylight illuminance".into(), symbol: "E_v,mel".into(), unit: "lx".into() };
         assert_eq!(melanopic.unit(), "lx");
-        assert_eq!(
-            melanopic.to_string(),
-            "melanopic equivalent daylight illuminance"
-        );
+        assert_eq!(melanopic.to_string(), "melanopic equivalent daylight illuminance");
         assert_eq!(Measurand::Signal { unit: "V".into() }.unit(), "V");
     }
 }

@@ -33,10 +33,7 @@ pub fn monochromatic_photon_flux(flux: RadiantFlux, wavelength_vacuum_nm: f64) -
 }
 
 /// Photon irradiance of a monochromatic irradiance: `E_p = E_e λ / (h c)`.
-pub fn monochromatic_photon_irradiance(
-    irradiance: Irradiance,
-    wavelength_vacuum_nm: f64,
-) -> PhotonIrradiance {
+pub fn monochromatic_photon_irradiance(irradiance: Irradiance, wavelength_vacuum_nm: f64) -> PhotonIrradiance {
     PhotonIrradiance::new(irradiance.value() * photons_per_joule(wavelength_vacuum_nm))
 }
 
@@ -58,10 +55,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn assert_close(found: f64, expected: f64) {
-        assert!(
-            (found / expected - 1.0).abs() <= 1e-14,
-            "found {found:e}, expected {expected:e}"
-        );
+        assert!((found / expected - 1.0).abs() <= 1e-14, "found {found:e}, expected {expected:e}");
     }
 
     #[test]

@@ -131,9 +131,7 @@ impl<S> Quantity<kind::FluxDensityOut, S> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::table::{
-        Illuminance, Luminance, LuminousFlux, LuminousIntensity, Radiance, RadiantFlux,
-    };
+    use super::super::table::{Illuminance, Luminance, LuminousFlux, LuminousIntensity, Radiance, RadiantFlux};
     use super::*;
     use proptest::prelude::*;
 
@@ -150,24 +148,14 @@ mod tests {
     #[test]
     fn a_source_behind_the_surface_gives_nothing_and_nan_stays_nan() {
         let lamp = LuminousIntensity::new(100.0);
-        assert_eq!(
-            lamp.arriving_at(Distance::new(2.0), -0.5),
-            Illuminance::ZERO
-        );
-        assert!(
-            lamp.arriving_at(Distance::new(2.0), f64::NAN)
-                .value()
-                .is_nan()
-        );
+        assert_eq!(lamp.arriving_at(Distance::new(2.0), -0.5), Illuminance::ZERO);
+        assert!(lamp.arriving_at(Distance::new(2.0), f64::NAN).value().is_nan());
     }
 
     #[test]
     fn a_uniform_dome_of_any_radiance_gives_pi_l_a() {
         // Reference cases g4e.radiance-2 and g4e.radiance-4.
-        for (l, flux) in [
-            (1e-300, 3.141_592_653_589_793e-304),
-            (1e300, 3.141_592_653_589_793e296),
-        ] {
+        for (l, flux) in [(1e-300, 3.141_592_653_589_793e-304), (1e300, 3.141_592_653_589_793e296)] {
             let found: RadiantFlux = Radiance::new(l) * Etendue::hemisphere(Area::new(1e-4));
             assert!((found.value() / flux - 1.0).abs() < 1e-12);
         }

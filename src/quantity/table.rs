@@ -148,10 +148,7 @@ impl<K, S> Quantity<K, S> {
 
     /// The quantity whose number is `value` in the unit of its cell. Any `f64` is accepted.
     pub const fn new(value: f64) -> Self {
-        Self {
-            value,
-            cell: PhantomData,
-        }
+        Self { value, cell: PhantomData }
     }
 
     /// The number in the unit of the cell.
@@ -269,11 +266,7 @@ where
             Some(decimals) => format!("{:.decimals$}", self.value),
             None => self.value.to_string(),
         };
-        if Self::UNIT == "1" {
-            f.write_str(&number)
-        } else {
-            write!(f, "{number} {}", Self::UNIT)
-        }
+        if Self::UNIT == "1" { f.write_str(&number) } else { write!(f, "{number} {}", Self::UNIT) }
     }
 }
 

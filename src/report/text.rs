@@ -6,8 +6,8 @@ use std::fmt::Write;
 
 use crate::estimate::Counters;
 use crate::measurement::{Measurement, Reading};
-use crate::metrology::{BudgetRow, EvaluationKind};
 use crate::metrology::rounding::{Rounded, format_significant};
+use crate::metrology::{BudgetRow, EvaluationKind};
 use crate::scene::Layout;
 
 /// Below this relative uncertainty a value is exact for a reader, and more digits would only be noise to the eye.
@@ -97,7 +97,10 @@ fn relative(expanded: f64, value: f64) -> String {
 fn write_table(readings: &[&Reading], out: &mut String) -> std::fmt::Result {
     // Where the poses of a list are is worth a column, a single one is known by its name.
     let listed = readings.iter().any(|r| r.layout == Layout::List);
-    let mut rows = vec![["instrument", if listed { "at" } else { "" }, "quantity", "reading", "", "U (95 %)", "k", "U/reading", "samples"].map(str::to_owned)];
+    let mut rows = vec![
+        ["instrument", if listed { "at" } else { "" }, "quantity", "reading", "", "U (95 %)", "k", "U/reading", "samples"]
+            .map(str::to_owned),
+    ];
     for r in readings {
         let (value, expanded) = rounded(r.value, r.expanded.expanded_uncertainty);
         let name = match r.layout {
@@ -164,7 +167,12 @@ fn write_grid(points: &[&Reading], out: &mut String) -> std::fmt::Result {
     writeln!(out, "    lowest      {}   at {}", of(lowest.value, lowest.expanded.expanded_uncertainty), place(lowest))?;
     writeln!(out, "    highest     {}   at {}", of(highest.value, highest.expanded.expanded_uncertainty), place(highest))?;
     if mean > 0.0 {
-        writeln!(out, "    uniformity  {} lowest/mean, {} lowest/highest", format_significant(lowest.value / mean, 3), format_significant(lowest.value / highest.value, 3))?;
+        writeln!(
+            out,
+            "    uniformity  {} lowest/mean, {} lowest/highest",
+            format_significant(lowest.value / mean, 3),
+            format_significant(lowest.value / highest.value, 3)
+        )?;
     }
     let worst = points.iter().map(|r| r.expanded.expanded_uncertainty / r.value.abs()).filter(|u| u.is_finite()).fold(0.0, f64::max);
     writeln!(out, "    U/reading   at most {}, {} samples in all\n", relative(worst, 1.0), points.iter().map(|r| r.samples).sum::<u64>())?;

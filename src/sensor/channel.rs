@@ -37,9 +37,7 @@ impl Channel {
             Measurand::RadiantFlux | Measurand::LuminousFlux | Measurand::PhotonFlux | Measurand::Photocurrent => {
                 self.scale * aperture.area_m2()?
             }
-            Measurand::Radiance | Measurand::Luminance | Measurand::PhotonRadiance => {
-                self.scale / acceptance.projected_solid_angle_sr()
-            }
+            Measurand::Radiance | Measurand::Luminance | Measurand::PhotonRadiance => self.scale / acceptance.projected_solid_angle_sr(),
             _ => self.scale,
         })
     }

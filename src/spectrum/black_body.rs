@@ -11,9 +11,7 @@
 
 use std::f64::consts::{LN_2, PI};
 
-use crate::quantity::constants::{
-    BOLTZMANN_J_K, SECOND_RADIATION_CONSTANT_M_K, SPEED_OF_LIGHT_M_S, STEFAN_BOLTZMANN_W_M2_K4,
-};
+use crate::quantity::constants::{BOLTZMANN_J_K, SECOND_RADIATION_CONSTANT_M_K, SPEED_OF_LIGHT_M_S, STEFAN_BOLTZMANN_W_M2_K4};
 
 /// Second radiation constant `c₂ = hc/k`, in nm K.
 pub const SECOND_RADIATION_CONSTANT_NM_K: f64 = SECOND_RADIATION_CONSTANT_M_K * 1e9;
@@ -28,10 +26,7 @@ fn reduced_energy(wavelength_nm: f64, temperature_k: f64) -> f64 {
 
 /// Whether Planck's law says anything about this wavelength and temperature.
 fn is_physical(wavelength_nm: f64, temperature_k: f64) -> bool {
-    wavelength_nm > 0.0
-        && wavelength_nm.is_finite()
-        && temperature_k > 0.0
-        && temperature_k.is_finite()
+    wavelength_nm > 0.0 && wavelength_nm.is_finite() && temperature_k > 0.0 && temperature_k.is_finite()
 }
 
 /// Spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹; zero for arguments that are not positive and finite.
@@ -61,11 +56,7 @@ pub fn ln_spectral_radiance(wavelength_nm: f64, temperature_k: f64) -> f64 {
         return f64::NEG_INFINITY;
     }
     // ln(eˣ − 1): for large x the exponential is split off, for small x the difference is taken by expm1.
-    let ln_bose = if x > LN_2 {
-        x + (-(-x).exp()).ln_1p()
-    } else {
-        x.exp_m1().ln()
-    };
+    let ln_bose = if x > LN_2 { x + (-(-x).exp()).ln_1p() } else { x.exp_m1().ln() };
     let ln_rayleigh_jeans = RAYLEIGH_JEANS.ln() + temperature_k.ln() - 4.0 * wavelength_nm.ln();
     ln_rayleigh_jeans + x.ln() - ln_bose
 }
@@ -124,42 +115,23 @@ mod tests {
     #[test]
     fn logarithms_agree_with_the_reference_cases() {
         // /reference/g4_extreme.json, g4e.planck-1, -3, -5: temperature in K, wavelength in nm, ln L.
-        for (temperature_k, nm, reference) in [
-            (10.0, 360.0, -3979.80642643764),
-            (300.0, 555.0, -71.7813350141029),
-            (2856.0, 1e-3, -5037653.39962211),
-        ] {
+        for (temperature_k, nm, reference) in
+            [(10.0, 360.0, -3979.80642643764), (300.0, 555.0, -71.7813350141029), (2856.0, 1e-3, -5037653.39962211)]
+        {
             let deviation = ln_spectral_radiance(nm, temperature_k) / reference - 1.0;
-            assert!(
-                deviation.abs() < 1e-12,
-                "{temperature_k} K, {nm} nm: {deviation:e}"
-            );
+            assert!(deviation.abs() < 1e-12, "{temperature_k} K, {nm} nm: {deviation:e}");
         }
     }
 
     #[test]
     fn illuminant_a_agrees_with_the_reference_cases() {
         // /reference/g2_spectral.json, g2b.illA-*.
-        for (nm, reference) in [
-            (300.0, 0.930482705616484),
-            (450.0, 33.0858929715025),
-            (700.0, 198.261223231287),
-            (830.0, 261.602339765577),
-        ] {
-            assert!(
-                (illuminant_a(nm) / reference - 1.0).abs() < 1e-12,
-                "{nm} nm"
-            );
+        for (nm, reference) in [(300.0, 0.930482705616484), (450.0, 33.0858929715025), (700.0, 198.261223231287), (830.0, 261.602339765577)]
+        {
+            assert!((illuminant_a(nm) / reference - 1.0).abs() < 1e-12, "{nm} nm");
         }
         assert_eq!(illuminant_a(560.0), 100.0);
-        assert_eq!(
-            [
-                illuminant_a(299.9),
-                illuminant_a(830.1),
-                illuminant_a(f64::NAN)
-            ],
-            [0.0; 3]
-        );
+        assert_eq!([illuminant_a(299.9), illuminant_a(830.1), illuminant_a(f64::NAN)], [0.0; 3]);
     }
 
     proptest! {

@@ -56,17 +56,9 @@ impl Continuum {
         match self {
             Self::Table(table) => {
                 let (from_nm, to_nm) = table.range_nm();
-                if from_nm <= nm && nm <= to_nm {
-                    table.at(nm)
-                } else {
-                    0.0
-                }
+                if from_nm <= nm && nm <= to_nm { table.at(nm) } else { 0.0 }
             }
-            Self::Flat {
-                from_nm,
-                to_nm,
-                value,
-            } => {
+            Self::Flat { from_nm, to_nm, value } => {
                 if *from_nm <= nm && nm <= *to_nm {
                     *value
                 } else {
@@ -74,10 +66,7 @@ impl Continuum {
                 }
             }
             Self::BlackBody { temperature_k } => black_body::spectral_radiance(nm, *temperature_k),
-            Self::Gaussian {
-                centre_nm,
-                sigma_nm,
-            } => {
+            Self::Gaussian { centre_nm, sigma_nm } => {
                 if *sigma_nm > 0.0 && nm > 0.0 {
                     let t = (nm - centre_nm) / sigma_nm;
                     (-0.5 * t * t).exp() / (sigma_nm * (2.0 * std::f64::consts::PI).sqrt())
@@ -96,9 +85,7 @@ impl Continuum {
         let support = match self {
             Self::Table(table) => {
                 let (from_nm, to_nm) = table.range_nm();
-                table
-                    .support()
-                    .intersection(&Support::interval(from_nm, to_nm))
+                table.support().intersection(&Support::interval(from_nm, to_nm))
             }
             Self::Flat { value: 0.0, .. } => Support::empty(),
             Self::Flat { from_nm, to_nm, .. } => Support::interval(*from_nm, *to_nm),
@@ -109,25 +96,14 @@ impl Continuum {
                     Support::empty()
                 }
             }
-            Self::Gaussian {
-                centre_nm,
-                sigma_nm,
-            } => {
+            Self::Gaussian { centre_nm, sigma_nm } => {
                 let reach_nm = GAUSSIAN_REACH_SIGMAS * sigma_nm;
-                if *sigma_nm > 0.0 {
-                    Support::interval(centre_nm - reach_nm, centre_nm + reach_nm)
-                } else {
-                    Support::empty()
-                }
+                if *sigma_nm > 0.0 { Support::interval(centre_nm - reach_nm, centre_nm + reach_nm) } else { Support::empty() }
             }
             Self::Scaled(0.0, _) => Support::empty(),
             Self::Scaled(_, continuum) => continuum.support(),
-            Self::Filtered(continuum, factor) => {
-                continuum.support().intersection(&factor.support())
-            }
-            Self::Sum(parts) => parts
-                .iter()
-                .fold(Support::empty(), |all, part| all.union(&part.support())),
+            Self::Filtered(continuum, factor) => continuum.support().intersection(&factor.support()),
+            Self::Sum(parts) => parts.iter().fold(Support::empty(), |all, part| all.union(&part.support())),
         };
         support.with_width()
     }
@@ -156,11 +132,7 @@ impl Density {
     fn assemble(continuum: Continuum, mut lines: Vec<Line>) -> Self {
         lines.retain(|line| line.power != 0.0);
         lines.sort_by(|a, b| a.wavelength_nm.total_cmp(&b.wavelength_nm));
-        Self {
-            scale: 1.0,
-            continuum,
-            lines,
-        }
+        Self { scale: 1.0, continuum, lines }
     }
 
     /// Nothing at any wavelength.
@@ -172,22 +144,12 @@ impl Density {
     pub fn flat(from_nm: f64, to_nm: f64, value: f64) -> Result<Self, SpectrumError> {
         let (from_nm, to_nm) = band(from_nm, to_nm)?;
         let value = not_negative("the density of a flat spectrum per nm", value)?;
-        Ok(Self::assemble(
-            Continuum::Flat {
-                from_nm,
-                to_nm,
-                value,
-            },
-            Vec::new(),
-        ))
+        Ok(Self::assemble(Continuum::Flat { from_nm, to_nm, value }, Vec::new()))
     }
 
     /// One line. Errors as in [`Density::new`].
     pub fn line(wavelength_nm: f64, power: f64) -> Result<Self, SpectrumError> {
-        Self::lines_only(&[Line {
-            wavelength_nm,
-            power,
-        }])
+        Self::lines_only(&[Line { wavelength_nm, power }])
     }
 
     /// Lines without a continuum. Errors as in [`Density::new`].
@@ -201,42 +163,23 @@ impl Density {
         let centre_nm = positive("the centre of the Gaussian in nm", centre_nm)?;
         let sigma_nm = positive("the standard deviation of the Gaussian in nm", sigma_nm)?;
         let power = not_negative("the power of the Gaussian", power)?;
-        Ok(Self {
-            scale: power,
-            ..Self::assemble(
-                Continuum::Gaussian {
-                    centre_nm,
-                    sigma_nm,
-                },
-                Vec::new(),
-            )
-        })
+        Ok(Self { scale: power, ..Self::assemble(Continuum::Gaussian { centre_nm, sigma_nm }, Vec::new()) })
     }
 
     /// Spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹. Errors if the temperature in K is not positive and finite.
     pub fn black_body(temperature_k: f64) -> Result<Self, SpectrumError> {
         let temperature_k = positive("the temperature of the black body in K", temperature_k)?;
-        Ok(Self::assemble(
-            Continuum::BlackBody { temperature_k },
-            Vec::new(),
-        ))
+        Ok(Self::assemble(Continuum::BlackBody { temperature_k }, Vec::new()))
     }
 
     /// A table per nm, zero outside. Errors if a value is negative; names the row.
     pub fn table(table: Table) -> Result<Self, SpectrumError> {
         for (index, (wavelength_nm, value)) in table.rows().enumerate() {
             if value < 0.0 {
-                return Err(SpectrumError::Negative {
-                    row: index + 1,
-                    wavelength_nm,
-                    value,
-                });
+                return Err(SpectrumError::Negative { row: index + 1, wavelength_nm, value });
             }
         }
-        Ok(Self::assemble(
-            Continuum::Table(table.with_outside(Outside::Zero)),
-            Vec::new(),
-        ))
+        Ok(Self::assemble(Continuum::Table(table.with_outside(Outside::Zero)), Vec::new()))
     }
 
     /// CIE illuminant A, relative, 100 at 560 nm, 300–830 nm, by its formula (see [`black_body::illuminant_a`]).
@@ -244,28 +187,15 @@ impl Density {
         // The formula is Planck's law at the temperature that makes today's c₂ equal to the formula's exponent.
         let temperature_k = black_body::illuminant_a_temperature_k();
         let (from_nm, to_nm) = black_body::ILLUMINANT_A_RANGE_NM;
-        let band = Factor::Band {
-            from_nm,
-            to_nm,
-            value: 1.0,
-        };
+        let band = Factor::Band { from_nm, to_nm, value: 1.0 };
         let continuum = Continuum::Filtered(Box::new(Continuum::BlackBody { temperature_k }), band);
         let scale = 100.0 / black_body::spectral_radiance(560.0, temperature_k);
-        Self {
-            scale,
-            ..Self::assemble(continuum, Vec::new())
-        }
+        Self { scale, ..Self::assemble(continuum, Vec::new()) }
     }
 
     /// The lines, rising in wavelength, with their powers.
     pub fn lines(&self) -> Vec<Line> {
-        self.lines
-            .iter()
-            .map(|line| Line {
-                power: line.power * self.scale,
-                ..*line
-            })
-            .collect()
+        self.lines.iter().map(|line| Line { power: line.power * self.scale, ..*line }).collect()
     }
 
     /// The continuum at `nm`, per nm; lines are not in it.
@@ -280,36 +210,23 @@ impl Density {
 
     /// The density times a number; the number may be anywhere from 1e-300 to 1e300. Errors if it is not finite.
     pub fn scaled(&self, scale: f64) -> Result<Self, SpectrumError> {
-        let scale = finite(
-            "the scale of a density",
-            self.scale * finite("the scale of a density", scale)?,
-        )?;
-        Ok(Self {
-            scale,
-            ..self.clone()
-        })
+        let scale = finite("the scale of a density", self.scale * finite("the scale of a density", scale)?)?;
+        Ok(Self { scale, ..self.clone() })
     }
 
     /// The sum of two densities.
     pub fn plus(&self, other: &Density) -> Self {
         let mut lines = self.lines();
         lines.extend(other.lines());
-        let part =
-            |density: &Self| Continuum::Scaled(density.scale, Box::new(density.continuum.clone()));
+        let part = |density: &Self| Continuum::Scaled(density.scale, Box::new(density.continuum.clone()));
         Self::assemble(Continuum::Sum(vec![part(self), part(other)]), lines)
     }
 
     /// The density behind a filter, in front of a reflector and the like: times a factor, still a density.
     pub fn filtered(&self, factor: &Factor) -> Self {
-        let lines = self.lines.iter().map(|line| Line {
-            power: line.power * factor.at(line.wavelength_nm),
-            ..*line
-        });
+        let lines = self.lines.iter().map(|line| Line { power: line.power * factor.at(line.wavelength_nm), ..*line });
         let continuum = Continuum::Filtered(Box::new(self.continuum.clone()), factor.clone());
-        Self {
-            scale: self.scale,
-            ..Self::assemble(continuum, lines.collect())
-        }
+        Self { scale: self.scale, ..Self::assemble(continuum, lines.collect()) }
     }
 
     /// Where the density is not zero: intervals of the continuum, single wavelengths of the lines.
@@ -322,23 +239,10 @@ impl Density {
         if self.scale == 0.0 {
             return Support::empty();
         }
-        let lit = |line: &&Line| {
-            factors
-                .iter()
-                .all(|factor| factor.at(line.wavelength_nm) != 0.0)
-        };
-        let lines = self
-            .lines
-            .iter()
-            .filter(lit)
-            .map(|line| (line.wavelength_nm, line.wavelength_nm))
-            .collect();
-        let continuum = factors
-            .iter()
-            .fold(self.continuum.support(), |support, factor| {
-                support.intersection(&factor.support())
-            })
-            .with_width();
+        let lit = |line: &&Line| factors.iter().all(|factor| factor.at(line.wavelength_nm) != 0.0);
+        let lines = self.lines.iter().filter(lit).map(|line| (line.wavelength_nm, line.wavelength_nm)).collect();
+        let continuum =
+            factors.iter().fold(self.continuum.support(), |support, factor| support.intersection(&factor.support())).with_width();
         continuum.union(&Support::from_intervals(lines))
     }
 
@@ -358,10 +262,7 @@ impl Density {
     /// Mean of a factor over the density, `∫ φ f dλ / ∫ φ dλ`; `None` if the density is zero.
     pub fn mean_of(&self, factor: &Factor) -> Option<f64> {
         // The scale cancels, and without it neither integral can leave the range of f64.
-        let unscaled = Self {
-            scale: 1.0,
-            ..self.clone()
-        };
+        let unscaled = Self { scale: 1.0, ..self.clone() };
         let total = unscaled.total();
         (self.scale != 0.0 && total > 0.0).then(|| unscaled.integral(&[factor]) / total)
     }

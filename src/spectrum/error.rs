@@ -4,9 +4,7 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
     /// The two columns of a table have different lengths.
-    #[error(
-        "the table has {wavelengths} wavelengths but {values} values; each row needs one of both"
-    )]
+    #[error("the table has {wavelengths} wavelengths but {values} values; each row needs one of both")]
     LengthsDiffer {
         /// Number of wavelengths.
         wavelengths: usize,
@@ -28,9 +26,7 @@ pub enum SpectrumError {
         wavelength_nm: f64,
     },
     /// Wavelengths that do not strictly increase. Rows are counted from 1.
-    #[error(
-        "row {row}: {wavelength_nm} nm follows {previous_nm} nm; wavelengths must increase from row to row"
-    )]
+    #[error("row {row}: {wavelength_nm} nm follows {previous_nm} nm; wavelengths must increase from row to row")]
     NotIncreasing {
         /// Row of the second of the two, counted from 1.
         row: usize,
@@ -84,11 +80,7 @@ pub(super) fn positive(name: &'static str, value: f64) -> Result<f64, SpectrumEr
     if value.is_finite() && value > 0.0 {
         return Ok(value);
     }
-    Err(SpectrumError::Parameter {
-        name,
-        value,
-        allowed: "finite and above 0",
-    })
+    Err(SpectrumError::Parameter { name, value, allowed: "finite and above 0" })
 }
 
 /// `value` if it is finite and not below zero.
@@ -96,11 +88,7 @@ pub(super) fn not_negative(name: &'static str, value: f64) -> Result<f64, Spectr
     if value.is_finite() && value >= 0.0 {
         return Ok(value);
     }
-    Err(SpectrumError::Parameter {
-        name,
-        value,
-        allowed: "finite and not below 0",
-    })
+    Err(SpectrumError::Parameter { name, value, allowed: "finite and not below 0" })
 }
 
 /// `value` if it is finite.
@@ -108,20 +96,12 @@ pub(super) fn finite(name: &'static str, value: f64) -> Result<f64, SpectrumErro
     if value.is_finite() {
         return Ok(value);
     }
-    Err(SpectrumError::Parameter {
-        name,
-        value,
-        allowed: "finite",
-    })
+    Err(SpectrumError::Parameter { name, value, allowed: "finite" })
 }
 
 /// The two edges of a band if they are positive, finite and in order.
 pub(super) fn band(from_nm: f64, to_nm: f64) -> Result<(f64, f64), SpectrumError> {
     let from = not_negative("the lower edge of the band in nm", from_nm)?;
     let to = positive("the upper edge of the band in nm", to_nm)?;
-    if from < to {
-        Ok((from, to))
-    } else {
-        Err(SpectrumError::Band { from_nm, to_nm })
-    }
+    if from < to { Ok((from, to)) } else { Err(SpectrumError::Band { from_nm, to_nm }) }
 }

@@ -19,22 +19,8 @@ use super::{SpectrumError, Support, Table};
 pub(super) const GAUSSIAN_REACH_SIGMAS: f64 = 39.0;
 
 /// Distances from the centre, in standard deviations, between which a Gaussian is resolved by a few Gauss–Legendre nodes.
-pub(super) const GAUSSIAN_STEPS_SIGMAS: [f64; 14] = [
-    0.5,
-    1.0,
-    1.5,
-    2.0,
-    3.0,
-    4.0,
-    5.0,
-    6.0,
-    8.0,
-    10.0,
-    13.0,
-    17.0,
-    25.0,
-    GAUSSIAN_REACH_SIGMAS,
-];
+pub(super) const GAUSSIAN_STEPS_SIGMAS: [f64; 14] =
+    [0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 13.0, 17.0, 25.0, GAUSSIAN_REACH_SIGMAS];
 
 /// A function of wavelength that multiplies a density.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,11 +64,7 @@ impl Factor {
     /// A band. Errors if an edge is negative or not finite, the edges are not in order, or the value is not finite.
     pub fn band(from_nm: f64, to_nm: f64, value: f64) -> Result<Self, SpectrumError> {
         let (from_nm, to_nm) = band(from_nm, to_nm)?;
-        Ok(Self::Band {
-            from_nm,
-            to_nm,
-            value: finite("the value of the band", value)?,
-        })
+        Ok(Self::Band { from_nm, to_nm, value: finite("the value of the band", value)? })
     }
 
     /// A Gaussian. Errors if the centre or the standard deviation is not positive and finite, or the peak is not finite.
@@ -103,11 +85,7 @@ impl Factor {
     pub fn at(&self, nm: f64) -> f64 {
         match self {
             Self::Constant(value) => *value,
-            Self::Band {
-                from_nm,
-                to_nm,
-                value,
-            } => {
+            Self::Band { from_nm, to_nm, value } => {
                 if *from_nm <= nm && nm <= *to_nm {
                     *value
                 } else {
@@ -115,11 +93,7 @@ impl Factor {
                 }
             }
             Self::Table(table) => table.at(nm),
-            Self::Gaussian {
-                peak,
-                centre_nm,
-                sigma_nm,
-            } => {
+            Self::Gaussian { peak, centre_nm, sigma_nm } => {
                 if *sigma_nm > 0.0 {
                     let t = (nm - centre_nm) / sigma_nm;
                     peak * (-0.5 * t * t).exp()
@@ -147,24 +121,12 @@ impl Factor {
             Self::Band { value: 0.0, .. } | Self::Gaussian { peak: 0.0, .. } => Support::empty(),
             Self::Band { from_nm, to_nm, .. } => Support::interval(*from_nm, *to_nm),
             Self::Table(table) => table.support(),
-            Self::Gaussian {
-                centre_nm,
-                sigma_nm,
-                ..
-            } => {
+            Self::Gaussian { centre_nm, sigma_nm, .. } => {
                 let reach_nm = GAUSSIAN_REACH_SIGMAS * sigma_nm;
-                if *sigma_nm > 0.0 {
-                    Support::interval(centre_nm - reach_nm, centre_nm + reach_nm)
-                } else {
-                    Support::empty()
-                }
+                if *sigma_nm > 0.0 { Support::interval(centre_nm - reach_nm, centre_nm + reach_nm) } else { Support::empty() }
             }
-            Self::Product(factors) => factors.iter().fold(Support::all(), |support, factor| {
-                support.intersection(&factor.support())
-            }),
-            Self::Sum(factors) => factors.iter().fold(Support::empty(), |support, factor| {
-                support.union(&factor.support())
-            }),
+            Self::Product(factors) => factors.iter().fold(Support::all(), |support, factor| support.intersection(&factor.support())),
+            Self::Sum(factors) => factors.iter().fold(Support::empty(), |support, factor| support.union(&factor.support())),
             Self::Scaled(scale, factor) => {
                 if *scale == 0.0 {
                     Support::empty()
@@ -199,11 +161,7 @@ impl Factor {
                 push(*to_nm);
             }
             Self::Table(table) => out.extend_from_slice(table.breakpoints_within(from_nm, to_nm)),
-            Self::Gaussian {
-                centre_nm,
-                sigma_nm,
-                ..
-            } => {
+            Self::Gaussian { centre_nm, sigma_nm, .. } => {
                 push(*centre_nm);
                 for t in GAUSSIAN_STEPS_SIGMAS {
                     push(centre_nm - t * sigma_nm);
@@ -232,9 +190,7 @@ impl Factor {
                 ends.extend(Some(to_nm).filter(|nm| jumps(nm, nm.next_up())));
                 ends
             }
-            Self::Product(factors) | Self::Sum(factors) => {
-                factors.iter().flat_map(Self::discontinuities).collect()
-            }
+            Self::Product(factors) | Self::Sum(factors) => factors.iter().flat_map(Self::discontinuities).collect(),
             Self::Scaled(_, factor) => factor.discontinuities(),
         }
     }
@@ -247,23 +203,15 @@ impl Factor {
                 let (least, largest) = self.range_over(from_nm, to_nm);
                 (least == largest).then_some(least)
             }
-            Self::Gaussian { peak, sigma_nm, .. } => {
-                (*peak == 0.0 || *sigma_nm <= 0.0).then_some(0.0)
-            }
+            Self::Gaussian { peak, sigma_nm, .. } => (*peak == 0.0 || *sigma_nm <= 0.0).then_some(0.0),
             Self::Product(factors) => {
-                let values: Vec<_> = factors
-                    .iter()
-                    .map(|factor| factor.is_constant_over(from_nm, to_nm))
-                    .collect();
+                let values: Vec<_> = factors.iter().map(|factor| factor.is_constant_over(from_nm, to_nm)).collect();
                 if values.contains(&Some(0.0)) {
                     return Some(0.0);
                 }
                 values.into_iter().product()
             }
-            Self::Sum(factors) => factors
-                .iter()
-                .map(|factor| factor.is_constant_over(from_nm, to_nm))
-                .sum(),
+            Self::Sum(factors) => factors.iter().map(|factor| factor.is_constant_over(from_nm, to_nm)).sum(),
             Self::Scaled(scale, factor) => {
                 if *scale == 0.0 {
                     return Some(0.0);
@@ -282,11 +230,7 @@ impl Factor {
     pub fn range_over(&self, from_nm: f64, to_nm: f64) -> (f64, f64) {
         match self {
             Self::Constant(value) => (*value, *value),
-            Self::Band {
-                from_nm: lower,
-                to_nm: upper,
-                value,
-            } => {
+            Self::Band { from_nm: lower, to_nm: upper, value } => {
                 if to_nm < *lower || from_nm > *upper {
                     (0.0, 0.0)
                 } else if *lower <= from_nm && to_nm <= *upper {
@@ -310,10 +254,7 @@ impl Factor {
             Self::Product(factors) => factors.iter().fold((1.0, 1.0), |(low, high), factor| {
                 let (least, largest) = factor.range_over(from_nm, to_nm);
                 let corners = [low * least, low * largest, high * least, high * largest];
-                (
-                    corners.into_iter().fold(f64::INFINITY, f64::min),
-                    corners.into_iter().fold(f64::NEG_INFINITY, f64::max),
-                )
+                (corners.into_iter().fold(f64::INFINITY, f64::min), corners.into_iter().fold(f64::NEG_INFINITY, f64::max))
             }),
             Self::Sum(factors) => factors.iter().fold((0.0, 0.0), |(low, high), factor| {
                 let (least, largest) = factor.range_over(from_nm, to_nm);
@@ -334,10 +275,7 @@ impl Factor {
             Self::Table(_) | Self::Proportional(_) => Some(1),
             Self::Gaussian { .. } => None,
             Self::Product(factors) => factors.iter().map(Self::degree).sum(),
-            Self::Sum(factors) => factors
-                .iter()
-                .map(Self::degree)
-                .try_fold(0, |most, degree| Some(most.max(degree?))),
+            Self::Sum(factors) => factors.iter().map(Self::degree).try_fold(0, |most, degree| Some(most.max(degree?))),
             Self::Scaled(_, factor) => factor.degree(),
         }
     }

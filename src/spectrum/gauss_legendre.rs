@@ -51,15 +51,8 @@ mod tests {
         for n in 1..=MAX_NODES {
             for degree in 0..2 * n {
                 let sum: f64 = rule(n).iter().map(|(x, w)| w * x.powi(degree as i32)).sum();
-                let exact = if degree % 2 == 0 {
-                    2.0 / (degree as f64 + 1.0)
-                } else {
-                    0.0
-                };
-                assert!(
-                    (sum - exact).abs() < 1e-14,
-                    "n = {n}, degree = {degree}: {sum} against {exact}"
-                );
+                let exact = if degree % 2 == 0 { 2.0 / (degree as f64 + 1.0) } else { 0.0 };
+                assert!((sum - exact).abs() < 1e-14, "n = {n}, degree = {degree}: {sum} against {exact}");
             }
         }
     }

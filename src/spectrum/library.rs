@@ -93,10 +93,7 @@ pub fn entries() -> &'static [Entry] {
         let mut entries = formulas();
         for file in FILES {
             // Negative values are allowed because factors may have them; a density with one is refused by its constructor.
-            let rules = TextRules {
-                negative_values: true,
-                ..TextRules::default()
-            };
+            let rules = TextRules { negative_values: true, ..TextRules::default() };
             // The tests hold every file to this; a file that did not parse would be an unknown name, never a wrong number.
             entries.extend(parse(file, &rules).ok().iter().flat_map(entries_of));
         }
@@ -124,12 +121,7 @@ fn formulas() -> Vec<Entry> {
     let equal_energy = Density::flat(360.0, 830.0, 100.0).ok();
     let e = equal_energy.map(|density| {
         let aliases = ["CIE illuminant E", "illuminant E", "equal energy"];
-        entry(
-            "E",
-            &aliases,
-            "100 from 360 nm to 830 nm, the range of the colour-matching functions",
-            density,
-        )
+        entry("E", &aliases, "100 from 360 nm to 830 nm, the range of the colour-matching functions", density)
     });
     [a].into_iter().chain(e).collect()
 }
@@ -137,30 +129,16 @@ fn formulas() -> Vec<Entry> {
 /// One entry a column.
 fn entries_of(text: &TableText) -> Vec<Entry> {
     let value = |key: &str| text.header_value(key).unwrap_or_default().to_owned();
-    let list = |key: &str| -> Vec<String> {
-        value(key)
-            .split(';')
-            .map(|item| item.trim().to_owned())
-            .filter(|item| !item.is_empty())
-            .collect()
-    };
-    let (names, column_aliases) = (
-        [vec![value("name")], list("aliases")].concat(),
-        list("column_aliases"),
-    );
-    let outside = if value("outside") == "hold" {
-        Outside::Hold
-    } else {
-        Outside::Zero
-    };
+    let list =
+        |key: &str| -> Vec<String> { value(key).split(';').map(|item| item.trim().to_owned()).filter(|item| !item.is_empty()).collect() };
+    let (names, column_aliases) = ([vec![value("name")], list("aliases")].concat(), list("column_aliases"));
+    let outside = if value("outside") == "hold" { Outside::Hold } else { Outside::Zero };
     let mut entries = Vec::new();
     for (index, values) in text.columns.iter().enumerate() {
         let mut names = names.clone();
         if text.columns.len() > 1 {
             let column = text.column_names.get(index).cloned().unwrap_or_default();
-            names
-                .iter_mut()
-                .for_each(|name| *name = format!("{name} {column}"));
+            names.iter_mut().for_each(|name| *name = format!("{name} {column}"));
             names.extend(column_aliases.get(index).cloned());
         }
         let Ok(table) = Table::new(text.wavelengths_nm.clone(), values.clone(), outside) else {
@@ -194,11 +172,7 @@ pub(super) fn key(name: &str) -> String {
             '\'' | '′' | '’' => key.push_str("prime"),
             '\u{304}' => key.push_str("bar"),
             'ȳ' => key.push_str("ybar"),
-            _ => key.extend(
-                character
-                    .to_lowercase()
-                    .filter(|letter| letter.is_alphanumeric()),
-            ),
+            _ => key.extend(character.to_lowercase().filter(|letter| letter.is_alphanumeric())),
         }
     }
     key
@@ -208,27 +182,14 @@ pub(super) fn key(name: &str) -> String {
 pub fn entry(name: &str) -> Result<&'static Entry, LookupError> {
     let wanted = key(name);
     let names = |entry: &'static Entry| std::iter::once(&entry.name).chain(&entry.aliases);
-    if let Some(found) = entries()
-        .iter()
-        .find(|entry| names(entry).any(|name| key(name) == wanted))
-    {
+    if let Some(found) = entries().iter().find(|entry| names(entry).any(|name| key(name) == wanted)) {
         return Ok(found);
     }
-    let mut ranked: Vec<(usize, &String)> = entries()
-        .iter()
-        .flat_map(names)
-        .map(|name| (edit_distance(&wanted, &key(name)), name))
-        .collect();
+    let mut ranked: Vec<(usize, &String)> =
+        entries().iter().flat_map(names).map(|name| (edit_distance(&wanted, &key(name)), name)).collect();
     ranked.sort();
-    let nearest = ranked
-        .into_iter()
-        .take(3)
-        .map(|(_, name)| name.clone())
-        .collect();
-    Err(LookupError::Unknown {
-        name: name.chars().take(80).collect(),
-        nearest,
-    })
+    let nearest = ranked.into_iter().take(3).map(|(_, name)| name.clone()).collect();
+    Err(LookupError::Unknown { name: name.chars().take(80).collect(), nearest })
 }
 
 /// The factor of this name. Errors if there is none or it is a density.
@@ -236,11 +197,7 @@ pub fn factor(name: &str) -> Result<Factor, LookupError> {
     let entry = entry(name)?;
     match &entry.curve {
         Curve::Factor(factor) => Ok(factor.clone()),
-        other => Err(other_kind(
-            entry,
-            other,
-            "factor (reflectance, responsivity, weighting function)",
-        )),
+        other => Err(other_kind(entry, other, "factor (reflectance, responsivity, weighting function)")),
     }
 }
 
@@ -254,11 +211,7 @@ pub fn density(name: &str) -> Result<Density, LookupError> {
 }
 
 fn other_kind(entry: &Entry, curve: &Curve, wanted: &'static str) -> LookupError {
-    LookupError::OtherKind {
-        name: entry.name.clone(),
-        found: curve.kind(),
-        wanted,
-    }
+    LookupError::OtherKind { name: entry.name.clone(), found: curve.kind(), wanted }
 }
 
 /// V(λ), CIE 1924, 1 nm, 360–830 nm. NaN everywhere if the embedded table could not be read, which the tests exclude.
@@ -268,8 +221,7 @@ pub fn v_lambda() -> Factor {
 
 /// Levenshtein's distance in characters; long names are cut, so the work is bounded.
 fn edit_distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) =
-        (a.chars().take(80).collect(), b.chars().take(80).collect());
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().take(80).collect(), b.chars().take(80).collect());
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, from) in a.iter().enumerate() {
         let mut diagonal = std::mem::replace(&mut row[0], i + 1);

@@ -35,10 +35,7 @@ pub fn photons(density: &Density) -> f64 {
 
 /// Photons in mol s⁻¹ for W nm⁻¹, mol s⁻¹ m⁻² for W m⁻² nm⁻¹.
 pub fn photons_mol(density: &Density) -> f64 {
-    density.integral(&[
-        &photons_per_joule(),
-        &Factor::Constant(1.0 / AVOGADRO_PER_MOL),
-    ])
+    density.integral(&[&photons_per_joule(), &Factor::Constant(1.0 / AVOGADRO_PER_MOL)])
 }
 
 /// Luminous efficacy of radiation, lm W⁻¹; `None` for a density that is zero.
@@ -56,7 +53,7 @@ mod tests {
         let v = Factor::Constant(1.0);
         assert_eq!(luminous(&laser, &v), 683.002);
         // Photon energy hc/λ = 1239.841984 eV nm / 555 nm, 1 eV = 1.602176634e-19 J.
-        let expected = 1.0 / (1239.841_984_332 / 555.0 * 1.602_176_634e-19);
+        let expected = 1.0 / (1_239.841_984_332 / 555.0 * 1.602_176_634e-19);
         assert!((photons(&laser) / expected - 1.0).abs() < 1e-11);
         assert!((photons_mol(&laser) * 6.022_140_76e23 / expected - 1.0).abs() < 1e-11);
     }
@@ -65,15 +62,10 @@ mod tests {
     fn photons_of_a_black_body_follow_the_third_power_of_temperature() {
         // Photon radiance 2c (kT/(hc))³ Γ(3) ζ(3); Γ(3) ζ(3) = 2 · 1.2020569031595942.
         for kelvin in [1.0_f64, 300.0, 2856.0, 1e7] {
-            let wavenumber =
-                1e9 * kelvin / super::super::black_body::SECOND_RADIATION_CONSTANT_NM_K;
-            let expected =
-                2.0 * SPEED_OF_LIGHT_M_S * wavenumber.powi(3) * 2.0 * 1.202_056_903_159_594_2;
+            let wavenumber = 1e9 * kelvin / super::super::black_body::SECOND_RADIATION_CONSTANT_NM_K;
+            let expected = 2.0 * SPEED_OF_LIGHT_M_S * wavenumber.powi(3) * 2.0 * 1.202_056_903_159_594_2;
             let found = photons(&Density::black_body(kelvin).unwrap());
-            assert!(
-                (found / expected - 1.0).abs() < 1e-11,
-                "{kelvin} K: {found:e} against {expected:e}"
-            );
+            assert!((found / expected - 1.0).abs() < 1e-11, "{kelvin} K: {found:e} against {expected:e}");
         }
     }
 

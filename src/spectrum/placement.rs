@@ -42,29 +42,14 @@ impl<'a> Placement<'a> {
                 shares[point.term] += point.weight.abs();
                 shares[point.term] > TAIL_SHARE
             };
-            let found = if from_below {
-                points.iter().find(&mut beyond)
-            } else {
-                points.iter().rev().find(&mut beyond)
-            };
+            let found = if from_below { points.iter().find(&mut beyond) } else { points.iter().rev().find(&mut beyond) };
             found.map_or(points[0].nm, |point| point.nm)
         };
         let (from_nm, to_nm) = (end(true), end(false));
-        let mut placement = Self {
-            points,
-            terms,
-            tests,
-            intervals: Vec::new(),
-        };
+        let mut placement = Self { points, terms, tests, intervals: Vec::new() };
         // A single line leaves no width between the ends; the neighbouring f64 makes it an interval.
-        let to_nm = if from_nm < to_nm {
-            to_nm
-        } else {
-            from_nm.next_up()
-        };
-        placement
-            .intervals
-            .push(placement.interval(from_nm, to_nm, 0..points.len()));
+        let to_nm = if from_nm < to_nm { to_nm } else { from_nm.next_up() };
+        placement.intervals.push(placement.interval(from_nm, to_nm, 0..points.len()));
         placement
     }
 
@@ -74,52 +59,31 @@ impl<'a> Placement<'a> {
 
     pub(super) fn node_wavelengths_nm(&self) -> Vec<f64> {
         let last = self.intervals.last().map(|interval| interval.to_nm);
-        self.intervals
-            .iter()
-            .map(|interval| interval.from_nm)
-            .chain(last)
-            .collect()
+        self.intervals.iter().map(|interval| interval.from_nm).chain(last).collect()
     }
 
     /// An interval with its errors. Points outside, which only the first and the last have, see the end values.
     fn interval(&self, from_nm: f64, to_nm: f64, points: std::ops::Range<usize>) -> Interval {
         let products = self.tests.products();
         let mut errors = vec![0.0; self.terms * products.len()];
-        let ends: Vec<(f64, f64)> = products
-            .iter()
-            .map(|product| {
-                (
-                    self.tests.at(product, from_nm),
-                    self.tests.at(product, to_nm),
-                )
-            })
-            .collect();
+        let ends: Vec<(f64, f64)> =
+            products.iter().map(|product| (self.tests.at(product, from_nm), self.tests.at(product, to_nm))).collect();
         for index in points.clone() {
             let point = self.points[index];
             let t = ((point.nm - from_nm) / (to_nm - from_nm)).clamp(0.0, 1.0);
             let row = &mut errors[point.term * products.len()..][..products.len()];
-            for ((error, (low, high)), exact) in
-                row.iter_mut().zip(&ends).zip(self.tests.at_point(index))
-            {
+            for ((error, (low, high)), exact) in row.iter_mut().zip(&ends).zip(self.tests.at_point(index)) {
                 *error += point.weight * (low * (1.0 - t) + high * t - exact);
             }
         }
-        Interval {
-            from_nm,
-            to_nm,
-            points,
-            errors,
-        }
+        Interval { from_nm, to_nm, points, errors }
     }
 
     /// The two parts of an interval.
     fn parts(&self, interval: &Interval, nm: f64) -> [Interval; 2] {
         let inside = &self.points[interval.points.clone()];
         let middle = interval.points.start + inside.partition_point(|point| point.nm < nm);
-        [
-            self.interval(interval.from_nm, nm, interval.points.start..middle),
-            self.interval(nm, interval.to_nm, middle..interval.points.end),
-        ]
+        [self.interval(interval.from_nm, nm, interval.points.start..middle), self.interval(nm, interval.to_nm, middle..interval.points.end)]
     }
 
     /// Largest error of the interval on the products that take part in placing. The root of `P_max` stands between the two residuals,
@@ -138,11 +102,7 @@ impl<'a> Placement<'a> {
 
     /// Adds a node at a given wavelength if it lies inside.
     pub(super) fn split_at(&mut self, nm: f64) {
-        if let Some(index) = self
-            .intervals
-            .iter()
-            .position(|interval| interval.from_nm < nm && nm < interval.to_nm)
-        {
+        if let Some(index) = self.intervals.iter().position(|interval| interval.from_nm < nm && nm < interval.to_nm) {
             let parts = self.parts(&self.intervals[index], nm);
             self.intervals.splice(index..=index, parts);
         }
@@ -150,12 +110,8 @@ impl<'a> Placement<'a> {
 
     /// Splits the worst interval that can be split. False if there is none.
     pub(super) fn refine(&mut self, candidates: &[f64]) -> bool {
-        let mut order: Vec<(f64, usize)> = self
-            .intervals
-            .iter()
-            .enumerate()
-            .map(|(index, interval)| (self.largest_error(interval), index))
-            .collect();
+        let mut order: Vec<(f64, usize)> =
+            self.intervals.iter().enumerate().map(|(index, interval)| (self.largest_error(interval), index)).collect();
         order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         for (error, index) in order {
             if error == 0.0 {
@@ -166,15 +122,7 @@ impl<'a> Placement<'a> {
                 .split_wavelengths(interval, candidates)
                 .into_iter()
                 .map(|nm| self.parts(interval, nm))
-                .map(|parts| {
-                    (
-                        parts
-                            .iter()
-                            .map(|part| self.largest_error(part))
-                            .sum::<f64>(),
-                        parts,
-                    )
-                })
+                .map(|parts| (parts.iter().map(|part| self.largest_error(part)).sum::<f64>(), parts))
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, parts)) = best {
                 self.intervals.splice(index..=index, parts);
@@ -188,16 +136,9 @@ impl<'a> Placement<'a> {
     fn split_wavelengths(&self, interval: &Interval, candidates: &[f64]) -> Vec<f64> {
         const MOST_CANDIDATES: usize = 8;
         let first = candidates.partition_point(|nm| *nm <= interval.from_nm);
-        let end = candidates
-            .partition_point(|nm| *nm < interval.to_nm)
-            .max(first);
+        let end = candidates.partition_point(|nm| *nm < interval.to_nm).max(first);
         let step = (end - first).div_ceil(MOST_CANDIDATES).max(1);
-        let mut wavelengths: Vec<f64> = candidates[first..end]
-            .iter()
-            .copied()
-            .skip(step / 2)
-            .step_by(step)
-            .collect();
+        let mut wavelengths: Vec<f64> = candidates[first..end].iter().copied().skip(step / 2).step_by(step).collect();
         wavelengths.push(0.5 * (interval.from_nm + interval.to_nm));
         let inside = &self.points[interval.points.clone()];
         let half: f64 = 0.5 * inside.iter().map(|point| point.weight.abs()).sum::<f64>();
@@ -217,12 +158,7 @@ impl<'a> Placement<'a> {
         let count = self.tests.products().len();
         let mut largest = (0.0_f64, 0.0_f64);
         for index in 0..self.terms * count {
-            let error = self
-                .intervals
-                .iter()
-                .map(|interval| interval.errors[index])
-                .sum::<f64>()
-                .abs();
+            let error = self.intervals.iter().map(|interval| interval.errors[index]).sum::<f64>().abs();
             largest.0 = largest.0.max(error * self.tests.brightest()[index % count]);
             largest.1 = largest.1.max(error);
         }

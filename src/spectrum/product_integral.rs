@@ -14,41 +14,23 @@ pub(super) fn integral(density: &Density, factors: &[&Factor]) -> f64 {
     let (scale, _, lines) = density.parts();
     let line_sum = lines.iter().map(|line| {
         let product = ScaledNumber::new(scale).times(line.power);
-        factors
-            .iter()
-            .fold(product, |product, factor| {
-                product.times(factor.at(line.wavelength_nm))
-            })
-            .value()
+        factors.iter().fold(product, |product, factor| product.times(factor.at(line.wavelength_nm))).value()
     });
     let terms = terms(density, factors);
-    let continuum_sum = terms
-        .iter()
-        .map(|term| term.scale.times(term.integral()).value());
+    let continuum_sum = terms.iter().map(|term| term.scale.times(term.integral()).value());
     compensated_sum(line_sum.chain(continuum_sum))
 }
 
 /// The continuum times `factors` as points and weights: `Σ wⱼ P(λⱼ) = ∫ φ Π fᵢ P dλ` for every P that is smooth between the
 /// breakpoints and `cuts_nm`, by `nodes` Gauss–Legendre nodes on each segment. Lines are not in it.
-pub(super) fn points_and_weights(
-    density: &Density,
-    factors: &[&Factor],
-    cuts_nm: &[f64],
-    nodes: usize,
-) -> Vec<(f64, f64)> {
+pub(super) fn points_and_weights(density: &Density, factors: &[&Factor], cuts_nm: &[f64], nodes: usize) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
     for term in terms(density, factors) {
         for segment in term.segments(cuts_nm) {
-            let (middle, half) = (
-                0.5 * (segment.from + segment.to),
-                0.5 * (segment.to - segment.from),
-            );
+            let (middle, half) = (0.5 * (segment.from + segment.to), 0.5 * (segment.to - segment.from));
             for &(x, weight) in gauss_legendre::rule(nodes) {
                 let y = middle + half * x;
-                let value = term
-                    .scale
-                    .times(weight * half * term.integrand(segment.coordinate, y))
-                    .value();
+                let value = term.scale.times(weight * half * term.integrand(segment.coordinate, y)).value();
                 points.push((segment.coordinate.wavelength_nm(y), value));
             }
         }
@@ -64,11 +46,7 @@ fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
         if next.is_infinite() {
             return next;
         }
-        lost += if sum.abs() >= value.abs() {
-            (sum - next) + value
-        } else {
-            (value - next) + sum
-        };
+        lost += if sum.abs() >= value.abs() { (sum - next) + value } else { (value - next) + sum };
         sum = next;
     }
     sum + lost
@@ -79,27 +57,20 @@ impl Term<'_> {
     fn integral(&self) -> f64 {
         let segments = self.segments(&[]);
         match self.degree() {
-            Some(degree) if degree / 2 < gauss_legendre::MAX_NODES => compensated_sum(
-                segments
-                    .iter()
-                    .map(|segment| self.estimate(segment, degree / 2 + 1).0),
-            ),
+            Some(degree) if degree / 2 < gauss_legendre::MAX_NODES => {
+                compensated_sum(segments.iter().map(|segment| self.estimate(segment, degree / 2 + 1).0))
+            }
             _ => self.adaptive(segments),
         }
     }
 
     /// Estimate of the integral over a segment, and of the integral of its absolute value.
     fn estimate(&self, segment: &Segment, nodes: usize) -> (f64, f64) {
-        let (middle, half) = (
-            0.5 * (segment.from + segment.to),
-            0.5 * (segment.to - segment.from),
-        );
-        gauss_legendre::rule(nodes)
-            .iter()
-            .fold((0.0, 0.0), |(sum, size), (x, weight)| {
-                let value = weight * half * self.integrand(segment.coordinate, middle + half * x);
-                (sum + value, size + value.abs())
-            })
+        let (middle, half) = (0.5 * (segment.from + segment.to), 0.5 * (segment.to - segment.from));
+        gauss_legendre::rule(nodes).iter().fold((0.0, 0.0), |(sum, size), (x, weight)| {
+            let value = weight * half * self.integrand(segment.coordinate, middle + half * x);
+            (sum + value, size + value.abs())
+        })
     }
 
     /// Halves segments until two estimates agree.
@@ -110,27 +81,12 @@ impl Term<'_> {
         const AGREEMENT: f64 = 1e-11;
         // What is this small beside the whole cannot be seen in it.
         const INVISIBLE: f64 = 1e-17;
-        let size: f64 = segments
-            .iter()
-            .map(|segment| self.estimate(segment, NODES).1)
-            .sum();
-        let mut open: Vec<(Segment, f64, usize)> = segments
-            .iter()
-            .map(|segment| (*segment, self.estimate(segment, NODES).0, 0))
-            .collect();
+        let size: f64 = segments.iter().map(|segment| self.estimate(segment, NODES).1).sum();
+        let mut open: Vec<(Segment, f64, usize)> = segments.iter().map(|segment| (*segment, self.estimate(segment, NODES).0, 0)).collect();
         let mut closed = Vec::with_capacity(open.len());
         while let Some((segment, whole, halvings)) = open.pop() {
             let middle = 0.5 * (segment.from + segment.to);
-            let halves = [
-                Segment {
-                    to: middle,
-                    ..segment
-                },
-                Segment {
-                    from: middle,
-                    ..segment
-                },
-            ];
+            let halves = [Segment { to: middle, ..segment }, Segment { from: middle, ..segment }];
             let estimates = halves.map(|half| self.estimate(&half, NODES));
             let sum = estimates[0].0 + estimates[1].0;
             let visible = (AGREEMENT * (estimates[0].1 + estimates[1].1)).max(INVISIBLE * size);

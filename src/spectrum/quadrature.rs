@@ -34,27 +34,14 @@ impl SpectralNodes {
     /// Chooses nodes for all `terms` (density of a source, responsivity of a channel) and all `reflectances` of a scene: at most
     /// `max_nodes` (at least 2 unless the scene is grey), fewer if the [`residual`](Self::residual) falls to `target_residual` before.
     /// No node at all if no term has a common wavelength.
-    pub fn compile(
-        terms: &[(&Density, &Factor)],
-        reflectances: &[&Factor],
-        max_nodes: usize,
-        target_residual: f64,
-    ) -> Self {
+    pub fn compile(terms: &[(&Density, &Factor)], reflectances: &[&Factor], max_nodes: usize, target_residual: f64) -> Self {
         let points = term_points(terms, reflectances);
         let Some(heaviest) = points.iter().max_by(|a, b| a.weight.total_cmp(&b.weight)) else {
-            return Self {
-                wavelengths_nm: Vec::new(),
-                residual: 0.0,
-                path_residual: 0.0,
-            };
+            return Self { wavelengths_nm: Vec::new(), residual: 0.0, path_residual: 0.0 };
         };
         let coloured = coloured(terms, reflectances);
         if coloured.is_empty() {
-            return Self {
-                wavelengths_nm: vec![heaviest.nm],
-                residual: 0.0,
-                path_residual: 0.0,
-            };
+            return Self { wavelengths_nm: vec![heaviest.nm], residual: 0.0, path_residual: 0.0 };
         }
         let tests = TestProducts::new(&coloured, points.iter().map(|point| point.nm).collect());
         let mut placement = Placement::new(&points, terms.len(), &tests);
@@ -70,21 +57,12 @@ impl SpectralNodes {
             }
         }
         let (residual, path_residual) = placement.residuals();
-        Self {
-            wavelengths_nm: placement.node_wavelengths_nm(),
-            residual,
-            path_residual,
-        }
+        Self { wavelengths_nm: placement.node_wavelengths_nm(), residual, path_residual }
     }
 
     /// The nodes with the default limits.
     pub fn compile_default(terms: &[(&Density, &Factor)], reflectances: &[&Factor]) -> Self {
-        Self::compile(
-            terms,
-            reflectances,
-            DEFAULT_MAX_NODES,
-            DEFAULT_TARGET_RESIDUAL,
-        )
+        Self::compile(terms, reflectances, DEFAULT_MAX_NODES, DEFAULT_TARGET_RESIDUAL)
     }
 
     /// The nodes, nm, strictly increasing.
@@ -113,17 +91,12 @@ impl SpectralNodes {
         if nodes.len() == 1 {
             return vec![density.integral(&[factor])];
         }
-        (0..nodes.len())
-            .map(|k| density.integral(&[factor, &hat(nodes, k)]))
-            .collect()
+        (0..nodes.len()).map(|k| density.integral(&[factor, &hat(nodes, k)])).collect()
     }
 
     /// The values of a reflectance at the nodes.
     pub fn sample(&self, factor: &Factor) -> Vec<f64> {
-        self.wavelengths_nm
-            .iter()
-            .map(|nm| factor.at(*nm))
-            .collect()
+        self.wavelengths_nm.iter().map(|nm| factor.at(*nm)).collect()
     }
 }
 
@@ -131,15 +104,9 @@ impl SpectralNodes {
 fn hat(nodes: &[f64], k: usize) -> Factor {
     let from = k.saturating_sub(1);
     let to = (k + 1).min(nodes.len() - 1);
-    let values = (from..=to)
-        .map(|i| if i == k { 1.0 } else { 0.0 })
-        .collect();
+    let values = (from..=to).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
     // Held outside: an inner hat holds its zeros, the first and the last hold their one.
-    Factor::Table(Table::from_valid(
-        nodes[from..=to].to_vec(),
-        values,
-        Outside::Hold,
-    ))
+    Factor::Table(Table::from_valid(nodes[from..=to].to_vec(), values, Outside::Hold))
 }
 
 /// All terms as points, each term's weights summing to 1, rising in wavelength.
@@ -154,25 +121,15 @@ fn term_points(terms: &[(&Density, &Factor)], reflectances: &[&Factor]) -> Vec<P
     for (term, (density, factor)) in terms.iter().enumerate() {
         let first = points.len();
         let continuum = points_and_weights(density, &[factor], &cuts_nm, TEST_NODES);
-        points.extend(
-            continuum
-                .into_iter()
-                .map(|(nm, weight)| Point { nm, weight, term }),
-        );
+        points.extend(continuum.into_iter().map(|(nm, weight)| Point { nm, weight, term }));
         let lines = density.lines().into_iter();
         points.extend(lines.map(|line| {
             let weight = line.power * factor.at(line.wavelength_nm);
-            Point {
-                nm: line.wavelength_nm,
-                weight,
-                term,
-            }
+            Point { nm: line.wavelength_nm, weight, term }
         }));
         let total: f64 = points[first..].iter().map(|point| point.weight.abs()).sum();
         // A term without a common wavelength has no points and needs no node.
-        points[first..]
-            .iter_mut()
-            .for_each(|point| point.weight /= total);
+        points[first..].iter_mut().for_each(|point| point.weight /= total);
     }
     points.retain(|point| point.weight.is_finite() && point.weight != 0.0);
     points.sort_by(|a, b| a.nm.total_cmp(&b.nm));
@@ -181,14 +138,10 @@ fn term_points(terms: &[(&Density, &Factor)], reflectances: &[&Factor]) -> Vec<P
 
 /// The reflectances that are not constant over the joint support of the terms, without repetitions.
 fn coloured<'a>(terms: &[(&Density, &Factor)], reflectances: &[&'a Factor]) -> Vec<&'a Factor> {
-    let supports: Vec<_> = terms
-        .iter()
-        .map(|(density, factor)| density.joint_support(&[factor]))
-        .collect();
+    let supports: Vec<_> = terms.iter().map(|(density, factor)| density.joint_support(&[factor])).collect();
     let intervals = || supports.iter().flat_map(|support| support.intervals());
     let is_grey = |reflectance: &Factor| {
-        let mut values =
-            intervals().map(|(from_nm, to_nm)| reflectance.is_constant_over(*from_nm, *to_nm));
+        let mut values = intervals().map(|(from_nm, to_nm)| reflectance.is_constant_over(*from_nm, *to_nm));
         let first = values.next().flatten();
         first.is_some() && values.all(|value| value == first)
     };
@@ -203,16 +156,8 @@ fn coloured<'a>(terms: &[(&Density, &Factor)], reflectances: &[&'a Factor]) -> V
 
 /// Wavelengths where a node is likely to help: breakpoints of the reflectances and lines, rising.
 fn candidates(terms: &[(&Density, &Factor)], reflectances: &[&Factor]) -> Vec<f64> {
-    let mut candidates: Vec<f64> = reflectances
-        .iter()
-        .flat_map(|reflectance| reflectance.breakpoints())
-        .collect();
-    candidates.extend(
-        terms
-            .iter()
-            .flat_map(|(density, _)| density.lines())
-            .map(|line| line.wavelength_nm),
-    );
+    let mut candidates: Vec<f64> = reflectances.iter().flat_map(|reflectance| reflectance.breakpoints()).collect();
+    candidates.extend(terms.iter().flat_map(|(density, _)| density.lines()).map(|line| line.wavelength_nm));
     candidates.sort_by(f64::total_cmp);
     candidates.dedup();
     candidates

@@ -13,24 +13,14 @@ impl ScaledNumber {
     /// `value` without loss.
     pub(super) fn new(value: f64) -> Self {
         if value == 0.0 || !value.is_finite() {
-            return Self {
-                mantissa: value,
-                exponent: 0,
-            };
+            return Self { mantissa: value, exponent: 0 };
         }
         // Subnormal numbers carry no implicit bit; 2^64 makes them normal, exactly.
-        let (normal, shift) = if value.is_normal() {
-            (value, 0)
-        } else {
-            (value * 2.0_f64.powi(64), -64)
-        };
+        let (normal, shift) = if value.is_normal() { (value, 0) } else { (value * 2.0_f64.powi(64), -64) };
         let bits = normal.to_bits();
         let exponent = ((bits >> 52) & 0x7ff) as i64 - 1023;
         let mantissa = f64::from_bits((bits & !(0x7ff << 52)) | (1023 << 52));
-        Self {
-            mantissa,
-            exponent: exponent + shift,
-        }
+        Self { mantissa, exponent: exponent + shift }
     }
 
     /// `exp(ln)`, also where `f64` cannot hold it. `ln` may be -infinity.
@@ -40,29 +30,20 @@ impl ScaledNumber {
         }
         let exponent = (ln / std::f64::consts::LN_2).round();
         let number = Self::new((ln - exponent * std::f64::consts::LN_2).exp());
-        Self {
-            mantissa: number.mantissa,
-            exponent: number.exponent + exponent as i64,
-        }
+        Self { mantissa: number.mantissa, exponent: number.exponent + exponent as i64 }
     }
 
     /// The product with `value`.
     pub(super) fn times(self, value: f64) -> Self {
         let other = Self::new(value);
         let product = Self::new(self.mantissa * other.mantissa);
-        Self {
-            mantissa: product.mantissa,
-            exponent: self.exponent + other.exponent + product.exponent,
-        }
+        Self { mantissa: product.mantissa, exponent: self.exponent + other.exponent + product.exponent }
     }
 
     /// The product with another scaled number.
     pub(super) fn times_scaled(self, other: Self) -> Self {
         let product = self.times(other.mantissa);
-        Self {
-            mantissa: product.mantissa,
-            exponent: product.exponent + other.exponent,
-        }
+        Self { mantissa: product.mantissa, exponent: product.exponent + other.exponent }
     }
 
     /// Whether it is zero.
@@ -85,10 +66,7 @@ mod tests {
 
     #[test]
     fn extreme_factors_cancel_exactly() {
-        let product = ScaledNumber::new(1e300)
-            .times(1e300)
-            .times(1e-300)
-            .times(1e-300);
+        let product = ScaledNumber::new(1e300).times(1e300).times(1e-300).times(1e-300);
         assert!((product.value() - 1.0).abs() < 1e-15);
         assert_eq!(ScaledNumber::new(5e-324).value(), 5e-324);
         assert_eq!(ScaledNumber::new(f64::MAX).value(), f64::MAX);

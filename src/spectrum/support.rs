@@ -12,16 +12,12 @@ pub struct Support {
 impl Support {
     /// No wavelength.
     pub fn empty() -> Self {
-        Self {
-            intervals: Vec::new(),
-        }
+        Self { intervals: Vec::new() }
     }
 
     /// Every wavelength, 0 to infinity.
     pub fn all() -> Self {
-        Self {
-            intervals: vec![(0.0, f64::INFINITY)],
-        }
+        Self { intervals: vec![(0.0, f64::INFINITY)] }
     }
 
     /// One interval, nm; empty if `to_nm < from_nm` or one of them is NaN.
@@ -66,13 +62,7 @@ impl Support {
 
     /// What belongs to either.
     pub fn union(&self, other: &Self) -> Self {
-        Self::from_intervals(
-            self.intervals
-                .iter()
-                .chain(&other.intervals)
-                .copied()
-                .collect(),
-        )
+        Self::from_intervals(self.intervals.iter().chain(&other.intervals).copied().collect())
     }
 
     /// What belongs to both.
@@ -90,14 +80,7 @@ impl Support {
 
     /// The part that has a width: without single wavelengths, over which a continuum integrates to nothing.
     pub fn with_width(&self) -> Self {
-        Self {
-            intervals: self
-                .intervals
-                .iter()
-                .copied()
-                .filter(|(from, to)| from < to)
-                .collect(),
-        }
+        Self { intervals: self.intervals.iter().copied().filter(|(from, to)| from < to).collect() }
     }
 
     /// Total width, nm; infinite if unbounded.
@@ -112,9 +95,8 @@ mod tests {
     use proptest::prelude::*;
 
     fn any_support() -> impl Strategy<Value = Support> {
-        prop::collection::vec((0.0..1000.0_f64, 0.0..100.0_f64), 0..6).prop_map(|list| {
-            Support::from_intervals(list.into_iter().map(|(a, w)| (a, a + w)).collect())
-        })
+        prop::collection::vec((0.0..1000.0_f64, 0.0..100.0_f64), 0..6)
+            .prop_map(|list| Support::from_intervals(list.into_iter().map(|(a, w)| (a, a + w)).collect()))
     }
 
     proptest! {

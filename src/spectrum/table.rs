@@ -33,16 +33,9 @@ impl Table {
     /// # Errors
     /// [`SpectrumError`] names the first row (counted from 1) that is not finite, not positive or not increasing; fewer than
     /// two rows and columns of different length are errors too.
-    pub fn new(
-        wavelengths_nm: Vec<f64>,
-        values: Vec<f64>,
-        outside: Outside,
-    ) -> Result<Self, SpectrumError> {
+    pub fn new(wavelengths_nm: Vec<f64>, values: Vec<f64>, outside: Outside) -> Result<Self, SpectrumError> {
         if wavelengths_nm.len() != values.len() {
-            return Err(SpectrumError::LengthsDiffer {
-                wavelengths: wavelengths_nm.len(),
-                values: values.len(),
-            });
+            return Err(SpectrumError::LengthsDiffer { wavelengths: wavelengths_nm.len(), values: values.len() });
         }
         if values.len() < 2 {
             return Err(SpectrumError::TooFewRows { rows: values.len() });
@@ -54,26 +47,14 @@ impl Table {
                 return Err(SpectrumError::Wavelength { row, wavelength_nm });
             }
             if wavelength_nm <= previous_nm {
-                return Err(SpectrumError::NotIncreasing {
-                    row,
-                    previous_nm,
-                    wavelength_nm,
-                });
+                return Err(SpectrumError::NotIncreasing { row, previous_nm, wavelength_nm });
             }
             if !value.is_finite() {
-                return Err(SpectrumError::NotFinite {
-                    row,
-                    wavelength_nm,
-                    value,
-                });
+                return Err(SpectrumError::NotFinite { row, wavelength_nm, value });
             }
             previous_nm = wavelength_nm;
         }
-        Ok(Self {
-            wavelengths_nm: wavelengths_nm.into(),
-            values: values.into(),
-            outside,
-        })
+        Ok(Self { wavelengths_nm: wavelengths_nm.into(), values: values.into(), outside })
     }
 
     /// A table of (wavelength in nm, value) rows. Errors as in [`Table::new`].
@@ -84,11 +65,7 @@ impl Table {
 
     /// A table whose columns are known to be valid.
     pub(super) fn from_valid(wavelengths_nm: Vec<f64>, values: Vec<f64>, outside: Outside) -> Self {
-        Self {
-            wavelengths_nm: wavelengths_nm.into(),
-            values: values.into(),
-            outside,
-        }
+        Self { wavelengths_nm: wavelengths_nm.into(), values: values.into(), outside }
     }
 
     /// The breakpoints, nm, strictly increasing.
@@ -103,10 +80,7 @@ impl Table {
 
     /// The rows (wavelength in nm, value), rising.
     pub fn rows(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        self.wavelengths_nm
-            .iter()
-            .copied()
-            .zip(self.values.iter().copied())
+        self.wavelengths_nm.iter().copied().zip(self.values.iter().copied())
     }
 
     /// What the table is beyond its ends.
@@ -121,24 +95,15 @@ impl Table {
 
     /// First and last breakpoint, nm.
     pub fn range_nm(&self) -> (f64, f64) {
-        (
-            self.wavelengths_nm[0],
-            self.wavelengths_nm[self.wavelengths_nm.len() - 1],
-        )
+        (self.wavelengths_nm[0], self.wavelengths_nm[self.wavelengths_nm.len() - 1])
     }
 
     /// The value at `nm`. Exact at breakpoints; on the ends the table's own value also under [`Outside::Zero`].
     pub fn at(&self, nm: f64) -> f64 {
         let last = self.values.len() - 1;
-        let after = self
-            .wavelengths_nm
-            .partition_point(|&breakpoint| breakpoint <= nm);
+        let after = self.wavelengths_nm.partition_point(|&breakpoint| breakpoint <= nm);
         if after == 0 {
-            return if self.outside == Outside::Hold {
-                self.values[0]
-            } else {
-                0.0
-            };
+            return if self.outside == Outside::Hold { self.values[0] } else { 0.0 };
         }
         if after > last {
             let holds = self.outside == Outside::Hold || nm == self.wavelengths_nm[last];
@@ -152,12 +117,8 @@ impl Table {
 
     /// The breakpoints strictly inside (`from_nm`, `to_nm`).
     pub fn breakpoints_within(&self, from_nm: f64, to_nm: f64) -> &[f64] {
-        let first = self
-            .wavelengths_nm
-            .partition_point(|&breakpoint| breakpoint <= from_nm);
-        let end = self
-            .wavelengths_nm
-            .partition_point(|&breakpoint| breakpoint < to_nm);
+        let first = self.wavelengths_nm.partition_point(|&breakpoint| breakpoint <= from_nm);
+        let end = self.wavelengths_nm.partition_point(|&breakpoint| breakpoint < to_nm);
         &self.wavelengths_nm[first..end.max(first)]
     }
 
@@ -188,22 +149,14 @@ impl Table {
         include(self.at(from_nm));
         include(self.at(to_nm));
         // The ends belong to the table: an interval that begins or ends beyond them meets their values.
-        for (end_nm, value) in [
-            (first_nm, self.values[0]),
-            (last_nm, self.values[self.values.len() - 1]),
-        ] {
+        for (end_nm, value) in [(first_nm, self.values[0]), (last_nm, self.values[self.values.len() - 1])] {
             if from_nm <= end_nm && end_nm <= to_nm {
                 include(value);
             }
         }
-        let first = self
-            .wavelengths_nm
-            .partition_point(|&breakpoint| breakpoint <= from_nm);
+        let first = self.wavelengths_nm.partition_point(|&breakpoint| breakpoint <= from_nm);
         let inside = self.breakpoints_within(from_nm, to_nm).len();
-        self.values[first..first + inside]
-            .iter()
-            .copied()
-            .for_each(&mut include);
+        self.values[first..first + inside].iter().copied().for_each(&mut include);
         range
     }
 }
@@ -220,57 +173,20 @@ mod tests {
     #[test]
     fn values_lie_on_the_straight_line_between_breakpoints() {
         let table = triangle(Outside::Zero);
-        assert_eq!(
-            [
-                table.at(400.0),
-                table.at(450.0),
-                table.at(500.0),
-                table.at(600.0)
-            ],
-            [1.0, 2.0, 3.0, 2.0]
-        );
-        assert_eq!(
-            [
-                table.at(400.0_f64.next_down()),
-                table.at(600.0_f64.next_up())
-            ],
-            [0.0, 0.0]
-        );
+        assert_eq!([table.at(400.0), table.at(450.0), table.at(500.0), table.at(600.0)], [1.0, 2.0, 3.0, 2.0]);
+        assert_eq!([table.at(400.0_f64.next_down()), table.at(600.0_f64.next_up())], [0.0, 0.0]);
         let held = triangle(Outside::Hold);
-        assert_eq!(
-            [held.at(1.0), held.at(1e9), held.at(f64::INFINITY)],
-            [1.0, 2.0, 2.0]
-        );
+        assert_eq!([held.at(1.0), held.at(1e9), held.at(f64::INFINITY)], [1.0, 2.0, 2.0]);
     }
 
     #[test]
     fn errors_name_the_row() {
         let error = |rows: &[(f64, f64)]| Table::from_rows(rows, Outside::Zero).unwrap_err();
         assert_eq!(error(&[(1.0, 0.0)]), SpectrumError::TooFewRows { rows: 1 });
-        assert_eq!(
-            error(&[(2.0, 0.0), (2.0, 1.0)]),
-            SpectrumError::NotIncreasing {
-                row: 2,
-                previous_nm: 2.0,
-                wavelength_nm: 2.0
-            }
-        );
-        assert_eq!(
-            error(&[(0.0, 0.0), (2.0, 1.0)]),
-            SpectrumError::Wavelength {
-                row: 1,
-                wavelength_nm: 0.0
-            }
-        );
+        assert_eq!(error(&[(2.0, 0.0), (2.0, 1.0)]), SpectrumError::NotIncreasing { row: 2, previous_nm: 2.0, wavelength_nm: 2.0 });
+        assert_eq!(error(&[(0.0, 0.0), (2.0, 1.0)]), SpectrumError::Wavelength { row: 1, wavelength_nm: 0.0 });
         let infinite = error(&[(1.0, 0.0), (2.0, f64::INFINITY)]);
-        assert_eq!(
-            infinite,
-            SpectrumError::NotFinite {
-                row: 2,
-                wavelength_nm: 2.0,
-                value: f64::INFINITY
-            }
-        );
+        assert_eq!(infinite, SpectrumError::NotFinite { row: 2, wavelength_nm: 2.0, value: f64::INFINITY });
         assert!(Table::new(vec![1.0], vec![], Outside::Zero).is_err());
     }
 
@@ -278,10 +194,7 @@ mod tests {
     fn a_gap_of_zeros_is_not_in_the_support() {
         let rows = [(600.0, 1.0), (620.0, 0.0), (640.0, 0.0), (660.0, 1.0)];
         let table = Table::from_rows(&rows, Outside::Hold).unwrap();
-        assert_eq!(
-            table.support().intervals(),
-            &[(0.0, 620.0), (640.0, f64::INFINITY)]
-        );
+        assert_eq!(table.support().intervals(), &[(0.0, 620.0), (640.0, f64::INFINITY)]);
         assert!(!table.support().contains(633.0));
     }
 

@@ -20,15 +20,8 @@ impl Separator {
             return Self::Tab;
         }
         let starts_with_digit = row.starts_with(|first: char| first.is_ascii_digit());
-        let blanks_inside = || {
-            row.split(',')
-                .any(|part| part.trim().contains(char::is_whitespace))
-        };
-        if row.contains(',') && !(starts_with_digit && blanks_inside()) {
-            Self::Comma
-        } else {
-            Self::Blank
-        }
+        let blanks_inside = || row.split(',').any(|part| part.trim().contains(char::is_whitespace));
+        if row.contains(',') && !(starts_with_digit && blanks_inside()) { Self::Comma } else { Self::Blank }
     }
 }
 
@@ -43,9 +36,7 @@ pub(super) struct Field<'a> {
 impl Field<'_> {
     /// Whether it can only be the name of a column: it has a letter and is no number, and is none with a decimal comma.
     pub(super) fn is_a_name(&self) -> bool {
-        let starts_as_number = self
-            .text
-            .starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first));
+        let starts_as_number = self.text.starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first));
         self.text.parse::<f64>().is_err() && !starts_as_number && !self.text.is_empty()
     }
 
@@ -93,15 +84,8 @@ pub(super) fn split(row: &str, separator: Separator) -> Vec<Field<'_>> {
         let raw = &row[from..to];
         let text = raw.trim().trim_matches('"').trim();
         // The offset of a sub-slice; for an empty field the place where it begins.
-        let offset = if text.is_empty() {
-            from
-        } else {
-            from + raw.find(text).unwrap_or(0)
-        };
-        fields.push(Field {
-            text,
-            column: row[..offset].chars().count() + 1,
-        });
+        let offset = if text.is_empty() { from } else { from + raw.find(text).unwrap_or(0) };
+        fields.push(Field { text, column: row[..offset].chars().count() + 1 });
     };
     let is_separator = |character: char| match separator {
         Separator::Comma => character == ',',
@@ -110,10 +94,7 @@ pub(super) fn split(row: &str, separator: Separator) -> Vec<Field<'_>> {
         Separator::Blank => character.is_whitespace(),
     };
     let mut from = 0;
-    for (position, character) in row
-        .char_indices()
-        .filter(|(_, character)| is_separator(*character))
-    {
+    for (position, character) in row.char_indices().filter(|(_, character)| is_separator(*character)) {
         if separator != Separator::Blank || position > from {
             push(from, position);
         }
@@ -130,24 +111,12 @@ mod tests {
     use super::*;
 
     fn texts(row: &str) -> Vec<&str> {
-        split(row, Separator::of(row.trim()))
-            .into_iter()
-            .map(|field| field.text)
-            .collect()
+        split(row, Separator::of(row.trim())).into_iter().map(|field| field.text).collect()
     }
 
     #[test]
     fn all_four_separators_are_recognised() {
-        for row in [
-            "380,0.5",
-            "380, 0.5",
-            "380;0.5",
-            "380\t0.5",
-            "380   0.5",
-            " 380 0.5 ",
-            "380,0.5,",
-            "\"380\",\"0.5\"",
-        ] {
+        for row in ["380,0.5", "380, 0.5", "380;0.5", "380\t0.5", "380   0.5", " 380 0.5 ", "380,0.5,", "\"380\",\"0.5\""] {
             assert_eq!(texts(row), ["380", "0.5"], "{row}");
         }
         assert_eq!(texts("380,5 0,12"), ["380,5", "0,12"]);
@@ -158,12 +127,6 @@ mod tests {
     #[test]
     fn columns_are_counted_in_characters() {
         let fields = split("µm; 0.5", Separator::Semicolon);
-        assert_eq!(
-            fields[1],
-            Field {
-                text: "0.5",
-                column: 5
-            }
-        );
+        assert_eq!(fields[1], Field { text: "0.5", column: 5 });
     }
 }

@@ -27,11 +27,7 @@ pub struct TextRules {
 impl Default for TextRules {
     /// No negative values, at most a million rows and 1000 columns.
     fn default() -> Self {
-        Self {
-            negative_values: false,
-            max_rows: 1_000_000,
-            max_columns: 1000,
-        }
+        Self { negative_values: false, max_rows: 1_000_000, max_columns: 1000 }
     }
 }
 
@@ -64,10 +60,7 @@ pub struct TableText {
 impl TableText {
     /// The value of a header line, by its key in lower case.
     pub fn header_value(&self, key: &str) -> Option<&str> {
-        self.header
-            .iter()
-            .find(|(found, _)| found == key)
-            .map(|(_, value)| value.as_str())
+        self.header.iter().find(|(found, _)| found == key).map(|(_, value)| value.as_str())
     }
 }
 
@@ -80,26 +73,12 @@ pub fn parse_bytes(bytes: &[u8], rules: &TextRules) -> Result<TableText, Vec<Tex
         Ok(text) => parse(text, rules),
         Err(error) => {
             let before = &bytes[..error.valid_up_to()];
-            let line_start = before
-                .iter()
-                .rposition(|byte| *byte == b'\n')
-                .map_or(0, |position| position + 1);
-            let column = String::from_utf8_lossy(&before[line_start..])
-                .chars()
-                .count()
-                + 1;
+            let line_start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |position| position + 1);
+            let column = String::from_utf8_lossy(&before[line_start..]).chars().count() + 1;
             let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
-            let message = format!(
-                "the byte 0x{:02x} is not UTF-8 text",
-                bytes[error.valid_up_to()]
-            );
+            let message = format!("the byte 0x{:02x} is not UTF-8 text", bytes[error.valid_up_to()]);
             let help = "save the file as plain text in UTF-8 (CSV)".to_owned();
-            Err(vec![TextProblem {
-                line,
-                column,
-                message,
-                help,
-            }])
+            Err(vec![TextProblem { line, column, message, help }])
         }
     }
 }
@@ -136,12 +115,7 @@ struct Reader {
 
 impl Reader {
     fn new(rules: TextRules) -> Self {
-        let table = TableText {
-            header: vec![],
-            column_names: vec![],
-            wavelengths_nm: vec![],
-            columns: vec![],
-        };
+        let table = TableText { header: vec![], column_names: vec![], wavelengths_nm: vec![], columns: vec![] };
         Self {
             rules,
             line: 1,
@@ -158,12 +132,7 @@ impl Reader {
 
     fn problem(&mut self, column: usize, message: impl Into<String>, help: impl Into<String>) {
         if self.problems.len() < MAX_PROBLEMS {
-            self.problems.push(TextProblem {
-                line: self.line,
-                column,
-                message: message.into(),
-                help: help.into(),
-            });
+            self.problems.push(TextProblem { line: self.line, column, message: message.into(), help: help.into() });
         } else {
             self.problems_unlisted += 1;
         }
@@ -189,11 +158,7 @@ impl Reader {
         }
         if self.rows_seen == self.rules.max_rows {
             let message = format!("the table has more than {} rows", self.rules.max_rows);
-            self.problem(
-                1,
-                message,
-                "thin the table, or integrate it into wider steps",
-            );
+            self.problem(1, message, "thin the table, or integrate it into wider steps");
             return false;
         }
         if self.rows_seen == 0 {
@@ -210,48 +175,27 @@ impl Reader {
         };
         let (key, value) = (key.trim().to_lowercase(), value.trim().to_owned());
         if self.table.header.iter().any(|(known, _)| *known == key) {
-            self.problem(
-                1,
-                format!("the header has `{key}` twice"),
-                "keep one of them",
-            );
+            self.problem(1, format!("the header has `{key}` twice"), "keep one of them");
         }
         if key == "wavelength_unit" && !(value == "nm" || value.starts_with("nm ")) {
-            self.problem(
-                1,
-                format!("the wavelength unit is `{value}`"),
-                "convert the wavelengths to nm and write `# wavelength_unit: nm`",
-            );
+            self.problem(1, format!("the wavelength unit is `{value}`"), "convert the wavelengths to nm and write `# wavelength_unit: nm`");
         }
         self.table.header.push((key, value));
     }
 
     fn read_column_names(&mut self, fields: &[Field<'_>]) {
         self.set_width(fields.len());
-        self.table.column_names = fields
-            .iter()
-            .skip(1)
-            .map(|field| field.text.to_owned())
-            .collect();
+        self.table.column_names = fields.iter().skip(1).map(|field| field.text.to_owned()).collect();
         // Names may be separated by commas and blanks in a file whose numbers are not: the rows decide for themselves.
-        self.separator = self
-            .separator
-            .filter(|separator| *separator != Separator::Blank);
+        self.separator = self.separator.filter(|separator| *separator != Separator::Blank);
     }
 
     fn set_width(&mut self, width: usize) {
         if width < 2 {
-            self.problem(
-                1,
-                "a row needs a wavelength and at least one value",
-                "separate the columns by comma, semicolon, tab or blanks",
-            );
+            self.problem(1, "a row needs a wavelength and at least one value", "separate the columns by comma, semicolon, tab or blanks");
         }
         if width > self.rules.max_columns {
-            let message = format!(
-                "the table has {width} columns, more than {}",
-                self.rules.max_columns
-            );
+            let message = format!("the table has {width} columns, more than {}", self.rules.max_columns);
             self.problem(1, message, "split the table into several files");
         }
         self.width = Some(width);
@@ -265,10 +209,7 @@ impl Reader {
         let width = self.width.unwrap_or(fields.len());
         if fields.len() != width {
             let few_or_many = if fields.len() < width { "few" } else { "many" };
-            let message = format!(
-                "too {few_or_many} columns: {} instead of {width}",
-                fields.len()
-            );
+            let message = format!("too {few_or_many} columns: {} instead of {width}", fields.len());
             let help = if fields.len() == 2 * width && self.separator == Some(Separator::Comma) {
                 "this looks like decimal commas; write decimal points, as in `380.5,0.12`"
             } else {
@@ -287,52 +228,31 @@ impl Reader {
                 && *value < 0.0
                 && !self.rules.negative_values
             {
-                self.problem(
-                    field.column,
-                    format!("the value {} is negative", field.text),
-                    "values must be 0 or above here",
-                );
+                self.problem(field.column, format!("the value {} is negative", field.text), "values must be 0 or above here");
             }
         }
         self.table.wavelengths_nm.push(wavelength_nm);
-        for (column, value) in self
-            .table
-            .columns
-            .iter_mut()
-            .zip(numbers.into_iter().skip(1))
-        {
+        for (column, value) in self.table.columns.iter_mut().zip(numbers.into_iter().skip(1)) {
             // A column with a hole has a problem listed, so it never leaves this file.
             column.extend(value);
         }
     }
 
     fn number(&mut self, field: &Field<'_>) -> Option<f64> {
-        field
-            .number()
-            .map_err(|(message, help)| self.problem(field.column, message, help))
-            .ok()
+        field.number().map_err(|(message, help)| self.problem(field.column, message, help)).ok()
     }
 
     fn check_wavelength(&mut self, wavelength_nm: f64, field: &Field<'_>) {
         if wavelength_nm <= 0.0 {
-            self.problem(
-                field.column,
-                format!("the wavelength {} nm is not above 0", field.text),
-                "wavelengths are in nm",
-            );
+            self.problem(field.column, format!("the wavelength {} nm is not above 0", field.text), "wavelengths are in nm");
         }
         if let Some((previous_nm, previous_line)) = self.previous {
             if wavelength_nm == previous_nm {
-                let message = format!(
-                    "{wavelength_nm} nm is there twice, in lines {previous_line} and {}",
-                    self.line
-                );
+                let message = format!("{wavelength_nm} nm is there twice, in lines {previous_line} and {}", self.line);
                 self.problem(field.column, message, "keep one of the two rows");
             } else if wavelength_nm < previous_nm {
                 let line = self.line;
-                let message = format!(
-                    "{wavelength_nm} nm in line {line} follows {previous_nm} nm in line {previous_line}"
-                );
+                let message = format!("{wavelength_nm} nm in line {line} follows {previous_nm} nm in line {previous_line}");
                 self.problem(field.column, message, "sort the rows by wavelength, rising");
             }
         }
@@ -341,53 +261,23 @@ impl Reader {
 
     fn finish(mut self) -> Result<TableText, Vec<TextProblem>> {
         let last_line = std::mem::replace(&mut self.line, self.first_row_line);
-        let longest = self
-            .table
-            .wavelengths_nm
-            .iter()
-            .copied()
-            .fold(0.0, f64::max);
+        let longest = self.table.wavelengths_nm.iter().copied().fold(0.0, f64::max);
         if longest > 0.0 && longest < 10.0 {
-            let (unit, by) = if longest < 1e-4 {
-                ("metres", "1e9")
-            } else {
-                ("micrometres", "1000")
-            };
+            let (unit, by) = if longest < 1e-4 { ("metres", "1e9") } else { ("micrometres", "1000") };
             let message = format!("all wavelengths are below 10 nm (the longest is {longest})");
-            self.problem(
-                1,
-                message,
-                format!("these look like {unit}; multiply them by {by} to get nm"),
-            );
+            self.problem(1, message, format!("these look like {unit}; multiply them by {by} to get nm"));
         }
         self.line = last_line;
         match self.rows_seen {
-            0 => self.problem(
-                1,
-                "the table has no rows",
-                "give at least two rows `wavelength_nm,value`",
-            ),
-            1 => self.problem(
-                1,
-                "the table has one row",
-                "a curve needs at least two rows; for a constant give the number itself",
-            ),
+            0 => self.problem(1, "the table has no rows", "give at least two rows `wavelength_nm,value`"),
+            1 => self.problem(1, "the table has one row", "a curve needs at least two rows; for a constant give the number itself"),
             _ => {}
         }
         if self.problems_unlisted > 0 {
             let message = format!("and {} more problems", self.problems_unlisted);
             let help = "correct the ones listed first".to_owned();
-            self.problems.push(TextProblem {
-                line: last_line,
-                column: 1,
-                message,
-                help,
-            });
+            self.problems.push(TextProblem { line: last_line, column: 1, message, help });
         }
-        if self.problems.is_empty() {
-            Ok(self.table)
-        } else {
-            Err(self.problems)
-        }
+        if self.problems.is_empty() { Ok(self.table) } else { Err(self.problems) }
     }
 }

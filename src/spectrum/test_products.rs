@@ -34,21 +34,12 @@ impl<'a> TestProducts<'a> {
     /// Products of `reflectances`, evaluated at `points_nm`.
     pub(super) fn new(reflectances: &[&'a Factor], points_nm: Vec<f64>) -> Self {
         let scaled = |factor: &&'a Factor| {
-            let largest = points_nm
-                .iter()
-                .map(|nm| factor.at(*nm).abs())
-                .fold(0.0, f64::max);
+            let largest = points_nm.iter().map(|nm| factor.at(*nm).abs()).fold(0.0, f64::max);
             (*factor, if largest > 0.0 { 1.0 / largest } else { 1.0 })
         };
         let reflectances: Vec<_> = reflectances.iter().map(scaled).collect();
         let products = products(reflectances.len());
-        let largest = |product: &Product| {
-            product
-                .0
-                .iter()
-                .map(|index| 1.0 / reflectances[*index].1)
-                .product()
-        };
+        let largest = |product: &Product| product.0.iter().map(|index| 1.0 / reflectances[*index].1).product();
         let brightest = products.iter().map(largest).collect();
         let mut values = Vec::with_capacity(points_nm.len() * products.len());
         let mut single = vec![0.0; reflectances.len()];
@@ -56,20 +47,9 @@ impl<'a> TestProducts<'a> {
             for (value, (factor, scale)) in single.iter_mut().zip(&reflectances) {
                 *value = factor.at(nm) * scale;
             }
-            values.extend(products.iter().map(|product| {
-                product
-                    .0
-                    .iter()
-                    .map(|index| single[*index])
-                    .product::<f64>()
-            }));
+            values.extend(products.iter().map(|product| product.0.iter().map(|index| single[*index]).product::<f64>()));
         }
-        Self {
-            reflectances,
-            products,
-            brightest,
-            values,
-        }
+        Self { reflectances, products, brightest, values }
     }
 
     /// The products.
@@ -89,11 +69,7 @@ impl<'a> TestProducts<'a> {
 
     /// The value of a product at a wavelength.
     pub(super) fn at(&self, product: &Product, nm: f64) -> f64 {
-        product
-            .0
-            .iter()
-            .map(|index| self.reflectances[*index].0.at(nm) * self.reflectances[*index].1)
-            .product()
+        product.0.iter().map(|index| self.reflectances[*index].0.at(nm) * self.reflectances[*index].1).product()
     }
 }
 
@@ -110,9 +86,7 @@ fn products(count: usize) -> Vec<Product> {
     // A linear congruential sequence (Knuth, MMIX); its upper bits choose length and members.
     let mut state = 1_u64;
     let mut draw = |below: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((state >> 33) as usize) % below
     };
     while products.len() < MAX_PRODUCTS.min(40 * count) {
@@ -120,11 +94,7 @@ fn products(count: usize) -> Vec<Product> {
         // Half of the paths go to and fro between two surfaces, as light between neighbouring walls does.
         let pair = [draw(count), draw(count)];
         let two_only = draw(2) == 0;
-        products.push(Product(
-            (0..bounces)
-                .map(|_| if two_only { pair[draw(2)] } else { draw(count) })
-                .collect(),
-        ));
+        products.push(Product((0..bounces).map(|_| if two_only { pair[draw(2)] } else { draw(count) }).collect()));
     }
     products
 }
@@ -139,15 +109,8 @@ mod tests {
             let list = products(count);
             assert_eq!(list, products(count));
             assert!(list.len() <= MAX_PRODUCTS);
-            assert!(
-                list.iter()
-                    .all(|product| (1..=MAX_BOUNCES).contains(&product.0.len()))
-            );
-            assert!(
-                list.iter()
-                    .flat_map(|product| &product.0)
-                    .all(|index| *index < count)
-            );
+            assert!(list.iter().all(|product| (1..=MAX_BOUNCES).contains(&product.0.len())));
+            assert!(list.iter().flat_map(|product| &product.0).all(|index| *index < count));
         }
     }
 }

@@ -13,7 +13,8 @@ pub(crate) const EXACT: f64 = 1e-9;
 pub(crate) const MOST_U: f64 = 4.0;
 
 /// A point meter of irradiance.
-pub(crate) const METER: &str = r#"Sensor(aperture: Point, acceptance: Cosine, channels: [(name: "E", responsivity: 1, reads: Irradiance)])"#;
+pub(crate) const METER: &str =
+    r#"Sensor(aperture: Point, acceptance: Cosine, channels: [(name: "E", responsivity: 1, reads: Irradiance)])"#;
 
 /// A vector as scene files have it, every digit kept.
 pub(crate) fn at(v: DVec3) -> String {

@@ -8,7 +8,9 @@ use etendue::math::DVec3;
 
 fn read(source: &str, facing: DVec3) -> f64 {
     let facing = at(facing);
-    exact(&format!(r#"Scene(sources: [(name: "s", {source}, spectrum: Line(555))], instruments: [(name: "m", sensor: {METER}, at: (0, 0, 0), facing: {facing})])"#))[0]
+    exact(&format!(
+        r#"Scene(sources: [(name: "s", {source}, spectrum: Line(555))], instruments: [(name: "m", sensor: {METER}, at: (0, 0, 0), facing: {facing})])"#
+    ))[0]
 }
 
 fn turned(theta: f64, phi: f64) -> DVec3 {

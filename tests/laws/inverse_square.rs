@@ -8,7 +8,9 @@ use proptest::prelude::*;
 use crate::bench::{EXACT, METER, apart, exact};
 
 fn read(source: &str) -> f64 {
-    exact(&format!(r#"Scene(sources: [(name: "s", {source}, spectrum: Line(555))], instruments: [(name: "m", sensor: {METER}, at: (0, 0, 0), facing: (0, 0, 1))])"#))[0]
+    exact(&format!(
+        r#"Scene(sources: [(name: "s", {source}, spectrum: Line(555))], instruments: [(name: "m", sensor: {METER}, at: (0, 0, 0), facing: (0, 0, 1))])"#
+    ))[0]
 }
 
 proptest! {

@@ -10,9 +10,11 @@ use crate::bench::{METER, Uncertain, assert_agree, samples};
 /// An L of two rectangles in one plane, a tent of two triangles, and a room without a lid.
 const L_SHAPE: &str = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4\nf 1 4 5 6\n";
 const TENT: &str = "v -1 0 1\nv 1 0 1\nv 0 1 1\nv 0 -1 0.5\nf 1 2 3\nf 2 1 4\n";
-const TUB: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+const TUB: &str =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
 /// A plate high above a smaller one: one hides the other from some places.
-const TWO_PLATES: &str = "v -1 -1 1\nv -1 1 1\nv 1 1 1\nv 1 -1 1\nv -0.3 -0.3 0.5\nv -0.3 0.3 0.5\nv 0.3 0.3 0.5\nv 0.3 -0.3 0.5\nf 1 2 3 4\nf 5 6 7 8\n";
+const TWO_PLATES: &str =
+    "v -1 -1 1\nv -1 1 1\nv 1 1 1\nv 1 -1 1\nv -0.3 -0.3 0.5\nv -0.3 0.3 0.5\nv 0.3 0.3 0.5\nv 0.3 -0.3 0.5\nf 1 2 3 4\nf 5 6 7 8\n";
 
 fn scene(source: &str) -> Scene {
     let text = format!(
@@ -70,7 +72,8 @@ fn a_mesh_that_hides_a_part_of_itself_is_sampled() {
 #[test]
 fn what_a_polygon_hides_is_what_its_triangles_hide() {
     let kite = [(-0.5, 0.0), (0.0, -0.25), (0.5, 0.0), (0.0, -0.1)];
-    let lamp = r#"(name: "sky panel", shape: Rectangle(3, 3), at: (0, 0, 2), facing: (0, 0, -1), strength: Radiance(3), spectrum: Line(555))"#;
+    let lamp =
+        r#"(name: "sky panel", shape: Rectangle(3, 3), at: (0, 0, 2), facing: (0, 0, -1), strength: Radiance(3), spectrum: Line(555))"#;
     let polygon: Vec<String> = kite.iter().map(|(x, y)| format!("({x}, {y}, 0.5)")).collect();
     let obj: String = kite.iter().map(|(x, y)| format!("v {x} {y} 0.5\n")).collect::<String>() + "f 1 2 4\nf 2 3 4\n";
     let read = |shape: &str, seed: u64| {
@@ -78,7 +81,8 @@ fn what_a_polygon_hides_is_what_its_triangles_hide() {
             r#"Scene(objects: [(name: "kite", shape: {shape}, surface: Black)], sources: [{lamp}],
                 instruments: [(name: "m", sensor: {METER}, at: (0, -0.1, 0), facing: (0, 0, 1))])"#
         );
-        let scene = read_scene("s.ron", &MemoryFiles::new().with("s.ron", text).with("kite.obj", obj.as_str()), None).unwrap_or_else(|p| panic!("{p}"));
+        let scene = read_scene("s.ron", &MemoryFiles::new().with("s.ron", text).with("kite.obj", obj.as_str()), None)
+            .unwrap_or_else(|p| panic!("{p}"));
         let plan = Plan::new(&scene, &PlanOptions::default()).unwrap();
         let found = measure(&scene, &plan, &samples(1 << 15), seed, &Watch { now: &|| 0.0, progress: &|_| {} }).unwrap();
         Uncertain { value: found.readings[0].value, u: found.readings[0].standard_uncertainty() }

@@ -12,7 +12,11 @@ fn moved(turn: DMat3, shift: DVec3, plates: bool) -> String {
     let objects = format!(
         r#"(name: "disc", shape: Disc(0.25), at: {}, facing: {}, surface: "paint"),
            (name: "triangle", shape: Polygon([{}, {}, {}]), surface: "paint"),"#,
-        p(1.25, -0.25, 1.0), v(0.0, 0.25, 1.0), p(-0.5, 0.25, 0.75), p(-0.5, -0.25, 0.75), p(-1.0, 0.0, 0.75),
+        p(1.25, -0.25, 1.0),
+        v(0.0, 0.25, 1.0),
+        p(-0.5, 0.25, 0.75),
+        p(-0.5, -0.25, 0.75),
+        p(-1.0, 0.0, 0.75),
     );
     format!(
         r#"Scene(surfaces: {{ "paint": Lambertian(0.5) }}, objects: [{}],
@@ -25,11 +29,16 @@ fn moved(turn: DMat3, shift: DVec3, plates: bool) -> String {
             (name: "rectangle", at: {}, facing: {}, up: {}, sensor: Sensor(aperture: Rectangle(width_m: 0.5, height_m: 0.25), acceptance: Cosine, channels: [(name: "E", responsivity: 1, reads: Irradiance)])),
         ])"#,
         if plates { objects.as_str() } else { "" },
-        p(1.5, -0.25, 2.0), v(0.0, 0.0, -1.0), v(0.0, 1.0, 0.0),
+        p(1.5, -0.25, 2.0),
+        v(0.0, 0.0, -1.0),
+        v(0.0, 1.0, 0.0),
         p(-1.0, 0.5, 1.5),
         p(0.25, 0.75, 3.0),
-        p(0.0, 0.0, 0.0), v(0.0, 0.0, 1.0),
-        p(0.25, 0.125, 0.0), v(0.0, 0.0, 1.0), v(0.0, 1.0, 0.0),
+        p(0.0, 0.0, 0.0),
+        v(0.0, 0.0, 1.0),
+        p(0.25, 0.125, 0.0),
+        v(0.0, 0.0, 1.0),
+        v(0.0, 1.0, 0.0),
     )
 }
 

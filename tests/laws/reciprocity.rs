@@ -76,7 +76,8 @@ fn what_hides_one_surface_from_the_other_hides_the_other_from_the_one() {
     let two = Placed { flat: Flat::Rectangle(0.7, 0.4), at: DVec3::new(0.2, 0.1, 1.5), facing: DVec3::new(0.0, 0.2, -1.0) };
     let plate = r#"(name: "plate", shape: Disc(0.2), at: (0.2, 0.1, 0.6), facing: (0.2, 0.1, 1), surface: Black)"#;
     let clear = exact(&flux(&one, &two, ""))[0];
-    let (there, back) = (uncertain(&flux(&one, &two, plate), &samples(1 << 15), 1)[0], uncertain(&flux(&two, &one, plate), &samples(1 << 15), 2)[0]);
+    let (there, back) =
+        (uncertain(&flux(&one, &two, plate), &samples(1 << 15), 1)[0], uncertain(&flux(&two, &one, plate), &samples(1 << 15), 2)[0]);
     assert!(there.value < 0.8 * clear && there.value > 0.2 * clear);
     assert_agree("reciprocity", there, back);
 }

@@ -17,12 +17,19 @@ fn sources_without_obstacle(s: f64) -> String {
             (name: "point", sensor: {METER}, at: {}, facing: (0.1, 0.2, 1)),
             (name: "disc", at: {}, facing: (0, 0.2, 1), sensor: Sensor(aperture: Disc(radius_m: {:e}), acceptance: Cosine, channels: [(name: "E", responsivity: 1, reads: Irradiance)])),
         ])"#,
-        0.7 * s, 0.4 * s, p(1.5, -0.3, 2.0),
-        0.3 * s, p(-1.0, 0.2, 1.5),
-        p(0.0, 2.0, 0.5), p(0.0, 2.5, 1.5), p(0.4, 2.0, 1.0),
-        0.2 * s, p(0.5, -2.0, 0.3),
+        0.7 * s,
+        0.4 * s,
+        p(1.5, -0.3, 2.0),
+        0.3 * s,
+        p(-1.0, 0.2, 1.5),
+        p(0.0, 2.0, 0.5),
+        p(0.0, 2.5, 1.5),
+        p(0.4, 2.0, 1.0),
+        0.2 * s,
+        p(0.5, -2.0, 0.3),
         p(0.0, 0.0, 0.0),
-        p(0.1, 0.1, 0.0), 0.1 * s,
+        p(0.1, 0.1, 0.0),
+        0.1 * s,
     )
 }
 
@@ -50,11 +57,14 @@ proptest! {
 
 #[test]
 fn irradiance_of_a_point_falls_with_the_square_of_the_scale() {
-    let read = |s: f64| exact(&format!(
-        r#"Scene(sources: [(name: "lamp", shape: Point, at: {}, strength: WattsPerSteradian(7), spectrum: Line(555))],
+    let read = |s: f64| {
+        exact(&format!(
+            r#"Scene(sources: [(name: "lamp", shape: Point, at: {}, strength: WattsPerSteradian(7), spectrum: Line(555))],
             instruments: [(name: "m", sensor: {METER}, at: {}, facing: (0.3, 0, 1))])"#,
-        at(DVec3::new(1.0, 2.0, 3.0) * s), at(DVec3::new(0.1, -0.2, 0.3) * s)
-    ))[0];
+            at(DVec3::new(1.0, 2.0, 3.0) * s),
+            at(DVec3::new(0.1, -0.2, 0.3) * s)
+        ))[0]
+    };
     for exponent in [-30, -9, -3, 3, 9, 30] {
         let k = 10f64.powi(exponent);
         assert!(apart(read(k) * k * k, read(1.0)) < EXACT);

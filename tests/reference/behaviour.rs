@@ -50,14 +50,17 @@ fn assert_dark(scene: &Scene) {
 #[test]
 fn zero_area_triangles_contribute_nothing() {
     // Identical corners, one of them at the sensor; corners on one line; two corners alike: a polygon says so.
-    for corners in ["(0, 0, 0), (0, 0, 0), (0, 0, 0)", "(0.1, 0.1, 0.7), (0.2, 0.2, 0.7), (0.3, 0.3, 0.7)", "(0, 0, 1), (0, 0, 1), (1, 0, 1)"] {
+    for corners in
+        ["(0, 0, 0), (0, 0, 0), (0, 0, 0)", "(0.1, 0.1, 0.7), (0.2, 0.2, 0.7), (0.3, 0.3, 0.7)", "(0, 0, 1), (0, 0, 1), (1, 0, 1)"]
+    {
         refused(&format!("sources: [(name: \"a\", shape: Polygon([{corners}]), {})]", radiance(1.0)), "no area");
     }
     // In a mesh they are left out, and what remains reads as without them.
     let read = |faces: &str| {
         let obj = format!("v 0 0 0\nv 1 0 1\nv 0 1 1\nv -1 -1 1\nv 2 0 1\nv 3 0 1\nf 4 3 2\n{faces}");
         let scene = text(&format!("sources: [(name: \"mesh\", shape: Mesh(\"m.obj\"), {})]", radiance(1.0)));
-        exact(&read_scene("s.ron", &MemoryFiles::new().with("s.ron", scene).with("m.obj", obj), None).unwrap_or_else(|p| panic!("{p}"))).value
+        exact(&read_scene("s.ron", &MemoryFiles::new().with("s.ron", scene).with("m.obj", obj), None).unwrap_or_else(|p| panic!("{p}")))
+            .value
     };
     let alone = read("");
     assert!(alone > 0.1);
@@ -137,13 +140,18 @@ fn a_laser_line_in_the_gap_of_a_responsivity_is_not_seen() {
     // A responsivity of 1 everywhere but in (620, 640), as a table with steps, gives the same.
     let table = "wavelength_nm,value\n300,1\n620,1\n620.0000001,0\n639.9999999,0\n640,1\n1100,1\n";
     let scene = text(&format!("sources: [(name: \"laser\", {})]", laser(633.0))).replace("responsivity: 1", "responsivity: \"gap.csv\"");
-    assert_dark(&read_scene("s.ron", &MemoryFiles::new().with("s.ron", scene).with("gap.csv", table), None).unwrap_or_else(|p| panic!("{p}")));
+    assert_dark(
+        &read_scene("s.ron", &MemoryFiles::new().with("s.ron", scene).with("gap.csv", table), None).unwrap_or_else(|p| panic!("{p}")),
+    );
 }
 
 #[test]
 fn an_acceptance_of_zero_is_refused_and_collects_nothing() {
-    for (aperture, reads) in [("Point", "Luminance"), ("Point", "Radiance"), ("Disc(radius_mm: 5)", "RadiantFlux"), ("Point", "Irradiance")] {
-        let sensor = format!("Sensor(aperture: {aperture}, acceptance: Cone(half_angle_deg: 0), channels: [(name: \"x\", responsivity: \"V\", reads: {reads})])");
+    for (aperture, reads) in [("Point", "Luminance"), ("Point", "Radiance"), ("Disc(radius_mm: 5)", "RadiantFlux"), ("Point", "Irradiance")]
+    {
+        let sensor = format!(
+            "Sensor(aperture: {aperture}, acceptance: Cone(half_angle_deg: 0), channels: [(name: \"x\", responsivity: \"V\", reads: {reads})])"
+        );
         let message = refusal(&format!(
             "Scene(sources: [(name: \"sky\", shape: Environment, {})], instruments: [(name: \"m\", sensor: {sensor}, at: (0, 0, 0), facing: (0, 0, 1))])",
             radiance(1.0)
@@ -192,7 +200,11 @@ fn input_that_is_not_physical_is_rejected_with_the_name_of_the_field() {
 #[test]
 fn a_closed_box_that_absorbs_nothing_is_refused() {
     let lamp = "sources: [(name: \"lamp\", shape: Point, at: (0, 0, 1), strength: Watts(1), spectrum: \"A\")]";
-    let room = |rho: &str| format!("surfaces: {{ \"paint\": Lambertian({rho}) }}, objects: [(name: \"room\", shape: Box(size: (4, 4, 4)), at: (-2, -2, -1), surface: \"paint\")], {lamp}");
+    let room = |rho: &str| {
+        format!(
+            "surfaces: {{ \"paint\": Lambertian({rho}) }}, objects: [(name: \"room\", shape: Box(size: (4, 4, 4)), at: (-2, -2, -1), surface: \"paint\")], {lamp}"
+        )
+    };
     refused(&room("1"), "no finite value");
     // Six polygons are closed as well, but that is found out on the way only: the run stops with an error, not with a number.
     let corner = |x: i32, y: i32, z: i32| format!("({}, {}, {})", 4 * x - 2, 4 * y - 2, 4 * z - 1);
@@ -207,7 +219,8 @@ fn a_closed_box_that_absorbs_nothing_is_refused() {
             format!("(name: \"side {axis} {end}\", shape: Polygon([{}]), surface: \"paint\")", corners.join(", "))
         })
         .collect();
-    let scene = scene_from_text(&text(&format!("surfaces: {{ \"paint\": Lambertian(1) }}, objects: [{}], {lamp}", sides.join(", ")))).unwrap();
+    let scene =
+        scene_from_text(&text(&format!("surfaces: {{ \"paint\": Lambertian(1) }}, objects: [{}], {lamp}", sides.join(", ")))).unwrap();
     let plan = Plan::new(&scene, &PlanOptions::default()).unwrap();
     let stop = Stop { target: None, budget_seconds: None, samples: Some(16) };
     let found = measure(&scene, &plan, &stop, 1, &Watch { now: &|| 0.0, progress: &|_| {} });

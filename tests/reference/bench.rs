@@ -114,17 +114,27 @@ impl System {
 
     /// Strength and spectrum of a point.
     pub(crate) fn intensity(self, i: f64) -> String {
-        format!("strength: {}({i:e}), spectrum: {}", if self == System::Luminous { "Candela" } else { "WattsPerSteradian" }, self.spectrum())
+        format!(
+            "strength: {}({i:e}), spectrum: {}",
+            if self == System::Luminous { "Candela" } else { "WattsPerSteradian" },
+            self.spectrum()
+        )
     }
 
     /// Strength and spectrum of a surface by its exitance.
     pub(crate) fn exitance(self, m: f64) -> String {
-        format!("strength: {}: {m:e}), spectrum: {}", if self == System::Luminous { "LuminousExitance(lumens_per_m2" } else { "Exitance(watts_per_m2" }, self.spectrum())
+        format!(
+            "strength: {}: {m:e}), spectrum: {}",
+            if self == System::Luminous { "LuminousExitance(lumens_per_m2" } else { "Exitance(watts_per_m2" },
+            self.spectrum()
+        )
     }
 
     fn sensor(self, aperture: &str, acceptance: &str, [radiant, luminous]: [&str; 2]) -> String {
         let (responsivity, reads) = if self == System::Luminous { ("\"V\"", luminous) } else { ("1", radiant) };
-        format!("Sensor(aperture: {aperture}, acceptance: {acceptance}, channels: [(name: \"x\", responsivity: {responsivity}, reads: {reads})])")
+        format!(
+            "Sensor(aperture: {aperture}, acceptance: {acceptance}, channels: [(name: \"x\", responsivity: {responsivity}, reads: {reads})])"
+        )
     }
 
     /// An ideal meter at a point.
@@ -174,7 +184,12 @@ pub(crate) fn measured(scene: &Scene, stop: &Stop, seed: u64) -> Measurement {
 /// The reading of a scene that needs neither rays nor samples. Its stated uncertainty must be a finite number.
 pub(crate) fn exact(scene: &Scene) -> Reading {
     let mut found = measured(scene, &Stop::default(), 1);
-    assert_eq!((found.counters.rays, found.counters.samples), (Counters::default().rays, 0), "{}", Plan::new(scene, &PlanOptions::default()).unwrap().explain(scene));
+    assert_eq!(
+        (found.counters.rays, found.counters.samples),
+        (Counters::default().rays, 0),
+        "{}",
+        Plan::new(scene, &PlanOptions::default()).unwrap().explain(scene)
+    );
     let reading = found.readings.remove(0);
     assert!(reading.standard_uncertainty().is_finite() && reading.value >= 0.0, "{reading:?}");
     reading

@@ -95,7 +95,8 @@ fn hdr_sum(c: &Case) -> f64 {
     let instrument = Instrument { name: "meter".into(), sensor: Arc::new(sensor), layout: Layout::Single, poses: vec![pose] };
     let candela = |i: f64| Density::line(555.0, i / (K_M_LM_W * v.at(555.0))).unwrap();
     let at = DVec3::new(0.0, 0.0, c.number("r_m"));
-    let source = |i: usize, density: &Density| Source { name: format!("source {i}"), emitter: Emitter::Point { at }, density: density.clone() };
+    let source =
+        |i: usize, density: &Density| Source { name: format!("source {i}"), emitter: Emitter::Point { at }, density: density.clone() };
     let (small, big) = (candela(c.number("I_small")), candela(c.number("I_big")));
     let count = c.number("N") as usize;
     let all = (0..count).map(|i| source(i, &small)).chain([source(count, &big)]).collect();
@@ -111,10 +112,7 @@ fn sliver(c: &Case) -> f64 {
 fn infrared_leak(c: &Case) -> f64 {
     let (t, k, hi) = (c.number("T_K"), c.number("k"), c.number("hi_nm"));
     // Relative to a power that keeps the numbers of an 800 K emitter away from zero.
-    let lines: Vec<Line> = (360..=hi as u32)
-        .map(f64::from)
-        .map(|nm| Line { wavelength_nm: nm, power: spectral_radiance(nm, t) })
-        .collect();
+    let lines: Vec<Line> = (360..=hi as u32).map(f64::from).map(|nm| Line { wavelength_nm: nm, power: spectral_radiance(nm, t) }).collect();
     let density = Density::lines_only(&lines).unwrap();
     let leak = Factor::band(780.5, hi + 0.5, k).unwrap();
     density.integral(&[&leak]) / density.integral(&[&library::v_lambda()])

@@ -156,7 +156,8 @@ fn parallel_rects(c: &Case) -> f64 {
 /// The emitter lies in the plane z = 0, the receiver stands on its edge x = 0.
 fn perpendicular_rects(c: &Case) -> f64 {
     let (w, h, l) = (c.number("W_m"), c.number("H_m"), c.number("L_m"));
-    let quad = format!("shape: Quad(corner: (0, 0, 0), u: {}, v: {}), {}", at([w, 0.0, 0.0]), at([0.0, l, 0.0]), System::Radiant.radiance(1.0));
+    let quad =
+        format!("shape: Quad(corner: (0, 0, 0), u: {}, v: {}), {}", at([w, 0.0, 0.0]), at([0.0, l, 0.0]), System::Radiant.radiance(1.0));
     let standing = scene(&[quad], &System::Radiant.rectangle_meter(l, h, "Cosine"), [0.0, 0.5 * l, 0.5 * h], [1.0, 0.0, 0.0]);
     exact(&standing).value / (PI * w * l)
 }

@@ -41,13 +41,10 @@ pub fn tilted_projected_solid_angle(half_angle_rad: f64, tilt_rad: f64) -> f64 {
 /// Projected solid angle, sr, of the half space on the side of `boundary_normal` within a cone about `normal`: a straight bright edge whose
 /// plane passes through the receiver.
 pub fn half_space_in_cone(boundary_normal: DVec3, normal: DVec3, half_angle_rad: f64) -> f64 {
-    let (Some(frame), Some(acceptance)) = (Frame::new(normal), Acceptance::new(half_angle_rad))
-    else {
+    let (Some(frame), Some(acceptance)) = (Frame::new(normal), Acceptance::new(half_angle_rad)) else {
         return 0.0;
     };
-    super::frame::unit(boundary_normal).map_or(0.0, |m| {
-        half_space_about_axis(frame.to_local(m), acceptance)
-    })
+    super::frame::unit(boundary_normal).map_or(0.0, |m| half_space_about_axis(frame.to_local(m), acceptance))
 }
 
 /// The same in receiver coordinates, `m` a unit vector.
@@ -58,11 +55,7 @@ pub(super) fn half_space_about_axis(m: DVec3, acceptance: Acceptance) -> f64 {
     // The plane meets the cone where cos φ = −(m_z/m_⊥) cot β.
     let margin = across * sin - along.abs() * cos;
     if margin <= 0.0 {
-        return if along > 0.0 || (along == 0.0 && across == 0.0) {
-            whole
-        } else {
-            0.0
-        };
+        return if along > 0.0 || (along == 0.0 && across == 0.0) { whole } else { 0.0 };
     }
     let half_chord = (margin * (across * sin + along.abs() * cos)).sqrt();
     // The smaller part lies on the side of the plane away from the axis.
@@ -77,14 +70,9 @@ pub(super) fn half_space_about_axis(m: DVec3, acceptance: Acceptance) -> f64 {
             let theta_sin = along.abs();
             let theta_cos = across * phi.cos();
             let r_squared = theta_sin * theta_sin + theta_cos * theta_cos;
-            (sin * theta_cos - cos * theta_sin).max(0.0) * (sin * theta_cos + cos * theta_sin)
-                / r_squared
+            (sin * theta_cos - cos * theta_sin).max(0.0) * (sin * theta_cos + cos * theta_sin) / r_squared
         };
         integrate_between(&[0.0, half_azimuth], &strip, 1e-13).value
     };
-    if along > 0.0 {
-        whole - smaller
-    } else {
-        smaller.max(0.0)
-    }
+    if along > 0.0 { whole - smaller } else { smaller.max(0.0) }
 }

@@ -25,17 +25,9 @@ const MAX_PANELS: usize = 400;
 
 /// `∫ R dG` for a response that is linear between its nodes (rad, value; ascending) and 0 beyond the last one; before the first one it has the first value.
 /// Two nodes at one angle are a step. `breaks_rad` are angles where the source begins or ends; any number of them, or none, may be given.
-pub fn weighted_by_table(
-    cumulative: &dyn Fn(f64) -> f64,
-    response: &[(f64, f64)],
-    breaks_rad: &[f64],
-    rel_tol: f64,
-) -> Bounded {
+pub fn weighted_by_table(cumulative: &dyn Fn(f64) -> f64, response: &[(f64, f64)], breaks_rad: &[f64], rel_tol: f64) -> Bounded {
     let Some(&(last_angle, last_value)) = response.last() else {
-        return Bounded {
-            value: 0.0,
-            error: 0.0,
-        };
+        return Bounded { value: 0.0, error: 0.0 };
     };
     let edge = cumulative(last_angle);
     let mut value = last_value * edge;
@@ -51,12 +43,7 @@ pub fn weighted_by_table(
             continue;
         }
         let mut stops = vec![start];
-        stops.extend(
-            breaks_rad
-                .iter()
-                .copied()
-                .filter(|b| *b > start && *b < end),
-        );
+        stops.extend(breaks_rad.iter().copied().filter(|b| *b > start && *b < end));
         stops.push(end);
         let mean = integrate_between(&stops, cumulative, rel_tol);
         let slope = step / (end - start);
@@ -68,19 +55,9 @@ pub fn weighted_by_table(
 
 /// `∫ R dG` from 0 to the last break for a response given as a function, smooth between the breaks. The first break is the
 /// angle below which G is 0 (0 is always right). Needs at least two breaks.
-pub fn weighted_by_function(
-    cumulative: &dyn Fn(f64) -> f64,
-    response: &dyn Fn(f64) -> f64,
-    breaks_rad: &[f64],
-    rel_tol: f64,
-) -> Bounded {
+pub fn weighted_by_function(cumulative: &dyn Fn(f64) -> f64, response: &dyn Fn(f64) -> f64, breaks_rad: &[f64], rel_tol: f64) -> Bounded {
     let rule = ChebyshevRule::new();
-    let panel = |start: f64, end: f64| Panel {
-        start,
-        end,
-        value: rule.stieltjes(cumulative, response, start, end),
-        error: 0.0,
-    };
+    let panel = |start: f64, end: f64| Panel { start, end, value: rule.stieltjes(cumulative, response, start, end), error: 0.0 };
     let halves = |whole: &Panel| {
         let middle = 0.5 * (whole.start + whole.end);
         let mut parts = [panel(whole.start, middle), panel(middle, whole.end)];
@@ -88,24 +65,14 @@ pub fn weighted_by_function(
         parts.iter_mut().for_each(|part| part.error = error);
         parts
     };
-    let mut panels: Vec<Panel> = breaks_rad
-        .windows(2)
-        .filter(|pair| pair[1] > pair[0])
-        .flat_map(|pair| halves(&panel(pair[0], pair[1])))
-        .collect();
+    let mut panels: Vec<Panel> =
+        breaks_rad.windows(2).filter(|pair| pair[1] > pair[0]).flat_map(|pair| halves(&panel(pair[0], pair[1]))).collect();
     loop {
         let value: f64 = panels.iter().map(|p| p.value).sum();
         let error: f64 = panels.iter().map(|p| p.error).sum();
-        let worst = panels
-            .iter()
-            .enumerate()
-            .max_by(|a, b| a.1.error.total_cmp(&b.1.error))
-            .map(|(index, _)| index);
+        let worst = panels.iter().enumerate().max_by(|a, b| a.1.error.total_cmp(&b.1.error)).map(|(index, _)| index);
         let Some(worst) = worst else {
-            return Bounded {
-                value: 0.0,
-                error: 0.0,
-            };
+            return Bounded { value: 0.0, error: 0.0 };
         };
         // What the rule loses to rounding: R and G of a panel against its share.
         let error = error + 8.0 * f64::EPSILON * value.abs();
@@ -144,10 +111,7 @@ impl ChebyshevRule {
                 .sum();
             (if k == 0 || k == DEGREE { 1.0 } else { 2.0 }) / DEGREE as f64 * (1.0 - sum)
         });
-        let end = |k: usize| {
-            (if k == 0 || k == DEGREE { 2.0 } else { 1.0 })
-                * (if k.is_multiple_of(2) { 1.0 } else { -1.0 })
-        };
+        let end = |k: usize| (if k == 0 || k == DEGREE { 2.0 } else { 1.0 }) * (if k.is_multiple_of(2) { 1.0 } else { -1.0 });
         let mut derivative = [[0.0; DEGREE + 1]; DEGREE + 1];
         for (i, row) in derivative.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate().filter(|(j, _)| *j != i) {
@@ -156,21 +120,11 @@ impl ChebyshevRule {
             // A constant has no derivative.
             row[i] = -row.iter().sum::<f64>();
         }
-        ChebyshevRule {
-            nodes,
-            weights,
-            derivative,
-        }
+        ChebyshevRule { nodes, weights, derivative }
     }
 
     /// `∫ R dG` over one panel. Both are taken relative to their values at the start, which keeps narrow sources precise.
-    fn stieltjes(
-        &self,
-        g: &dyn Fn(f64) -> f64,
-        r: &dyn Fn(f64) -> f64,
-        start: f64,
-        end: f64,
-    ) -> f64 {
+    fn stieltjes(&self, g: &dyn Fn(f64) -> f64, r: &dyn Fn(f64) -> f64, start: f64, end: f64) -> f64 {
         let at = |x: f64| {
             if x <= -1.0 {
                 start
@@ -183,15 +137,8 @@ impl ChebyshevRule {
         let first = g(start);
         let rs = self.nodes.map(|x| r(at(x)));
         let gs = self.nodes.map(|x| g(at(x)) - first);
-        let by_parts: f64 = (0..=DEGREE)
-            .map(|i| {
-                self.weights[i]
-                    * gs[i]
-                    * (0..=DEGREE)
-                        .map(|j| self.derivative[i][j] * rs[j])
-                        .sum::<f64>()
-            })
-            .sum();
+        let by_parts: f64 =
+            (0..=DEGREE).map(|i| self.weights[i] * gs[i] * (0..=DEGREE).map(|j| self.derivative[i][j] * rs[j]).sum::<f64>()).sum();
         rs[DEGREE] * gs[DEGREE] - by_parts
     }
 }

@@ -27,11 +27,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Projected solid angle, sr, of a one-sided disc; 0 for a receiver behind it.
 pub fn disc(centre: DVec3, facing: DVec3, radius_m: f64, normal: DVec3) -> f64 {
-    if receiver_in_front(centre, facing) {
-        disc_two_sided(centre, facing, radius_m, normal)
-    } else {
-        0.0
-    }
+    if receiver_in_front(centre, facing) { disc_two_sided(centre, facing, radius_m, normal) } else { 0.0 }
 }
 
 /// Projected solid angle, sr, of a disc that emits to both sides. In its plane: the limit from the side from which the receiver faces it.
@@ -40,16 +36,8 @@ pub fn disc_two_sided(centre: DVec3, facing: DVec3, radius_m: f64, normal: DVec3
 }
 
 /// Projected solid angle, sr, of a disc (two-sided) within a cone of half angle `half_angle_rad` about the receiver's normal.
-pub fn disc_in_cone(
-    centre: DVec3,
-    facing: DVec3,
-    radius_m: f64,
-    normal: DVec3,
-    half_angle_rad: f64,
-) -> f64 {
-    Acceptance::new(half_angle_rad).map_or(0.0, |acceptance| {
-        disc_in_acceptance(centre, facing, radius_m, normal, acceptance)
-    })
+pub fn disc_in_cone(centre: DVec3, facing: DVec3, radius_m: f64, normal: DVec3, half_angle_rad: f64) -> f64 {
+    Acceptance::new(half_angle_rad).map_or(0.0, |acceptance| disc_in_acceptance(centre, facing, radius_m, normal, acceptance))
 }
 
 /// Whether a disc of emitting side `facing` about `centre` (m, relative to the receiver) turns that side to the receiver; true in its plane.
@@ -63,21 +51,10 @@ pub fn receiver_in_front(centre: DVec3, facing: DVec3) -> bool {
 
 /// Projected solid angle, sr, of a disc at height `height_m` over an element parallel to it, its axis `lateral_m` away.
 pub fn parallel_disc(height_m: f64, lateral_m: f64, radius_m: f64) -> f64 {
-    disc_two_sided(
-        DVec3::new(lateral_m.abs(), 0.0, height_m.abs()),
-        DVec3::Z,
-        radius_m,
-        DVec3::Z,
-    )
+    disc_two_sided(DVec3::new(lateral_m.abs(), 0.0, height_m.abs()), DVec3::Z, radius_m, DVec3::Z)
 }
 
-pub(super) fn disc_in_acceptance(
-    centre: DVec3,
-    facing: DVec3,
-    radius_m: f64,
-    normal: DVec3,
-    acceptance: Acceptance,
-) -> f64 {
+pub(super) fn disc_in_acceptance(centre: DVec3, facing: DVec3, radius_m: f64, normal: DVec3, acceptance: Acceptance) -> f64 {
     Disc::new(centre, facing, radius_m, normal).map_or(0.0, |disc| disc.seen(acceptance).max(0.0))
 }
 
@@ -105,11 +82,7 @@ impl Disc {
         let signed_height = dot(facing, c);
         let m = frame.to_local(facing);
         // In the plane itself the receiver faces the side that it can see.
-        let away = if signed_height == 0.0 {
-            m.z < 0.0
-        } else {
-            signed_height < 0.0
-        };
+        let away = if signed_height == 0.0 { m.z < 0.0 } else { signed_height < 0.0 };
         Some(Disc {
             centre: frame.to_local(c),
             m: if away { -m } else { m },
@@ -120,13 +93,7 @@ impl Disc {
     }
 
     fn seen(&self, acceptance: Acceptance) -> f64 {
-        let Disc {
-            centre: c,
-            m,
-            radius,
-            height,
-            ..
-        } = *self;
+        let Disc { centre: c, m, radius, height, .. } = *self;
         if height == 0.0 {
             let inside = self.lateral < radius;
             return match (inside, acceptance.cos == 0.0) {
@@ -141,11 +108,7 @@ impl Disc {
             return 0.0;
         }
         if acceptance.cos == 0.0 {
-            return if c.z - rise >= 0.0 {
-                self.flux_vector_component()
-            } else {
-                self.strips(&self.horizon_breaks(), acceptance)
-            };
+            return if c.z - rise >= 0.0 { self.flux_vector_component() } else { self.strips(&self.horizon_breaks(), acceptance) };
         }
         let crossings = self.cone_crossings(acceptance);
         if crossings.is_empty() {
@@ -153,55 +116,29 @@ impl Disc {
             let rim = c + radius * self.steepest();
             if rim.z > 0.0 && acceptance.depth(rim.x.hypot(rim.y), rim.z) >= 0.0 {
                 // A rim that is cut by the horizon leaves the cone just above it, if closer than the roots can tell.
-                return if c.z - rise >= 0.0 {
-                    self.flux_vector_component()
-                } else {
-                    self.strips(&self.horizon_breaks(), acceptance)
-                };
+                return if c.z - rise >= 0.0 { self.flux_vector_component() } else { self.strips(&self.horizon_breaks(), acceptance) };
             }
-            return if self.axis_pierces() {
-                PI * acceptance.sin * acceptance.sin
-            } else {
-                0.0
-            };
+            return if self.axis_pierces() { PI * acceptance.sin * acceptance.sin } else { 0.0 };
         }
         self.strips(&[self.horizon_breaks(), crossings].concat(), acceptance)
     }
 
     /// n · ∫ ω dΩ: the projected solid angle if no part is below the horizon.
     fn flux_vector_component(&self) -> f64 {
-        let Disc {
-            centre: c,
-            m,
-            radius,
-            height,
-            lateral,
-        } = *self;
+        let Disc { centre: c, m, radius, height, lateral } = *self;
         let near = lateral - radius;
         let far = lateral + radius;
         let s = height.hypot(near) * height.hypot(far);
         let z = height * height + lateral * lateral + radius * radius;
         let p = height * height + near * far;
-        let q = if p >= 0.0 {
-            height * height * 2.0 * radius * radius / (s + p)
-        } else {
-            0.5 * (s - p)
-        };
+        let q = if p >= 0.0 { height * height * 2.0 * radius * radius / (s + p) } else { 0.5 * (s - p) };
         2.0 * PI * radius * radius * (height * c.z + q * m.z) / (s * (z + s))
     }
 
     /// Direction in the plane of the disc that rises most steeply from the horizon.
     fn steepest(&self) -> DVec3 {
         let flat = self.m.x.hypot(self.m.y);
-        if flat > 0.0 {
-            DVec3::new(
-                -self.m.x * self.m.z / flat,
-                -self.m.y * self.m.z / flat,
-                flat,
-            )
-        } else {
-            DVec3::X
-        }
+        if flat > 0.0 { DVec3::new(-self.m.x * self.m.z / flat, -self.m.y * self.m.z / flat, flat) } else { DVec3::X }
     }
 
     /// Azimuth, relative to the centre's, of the point of the rim at `offset` from the centre.
@@ -212,22 +149,14 @@ impl Disc {
 
     /// Azimuths at which chords begin or end: tangents to the rim, and the rim's passage through the horizon.
     fn horizon_breaks(&self) -> Vec<f64> {
-        let Disc {
-            centre: c,
-            m,
-            radius,
-            ..
-        } = *self;
+        let Disc { centre: c, m, radius, .. } = *self;
         let mut breaks = vec![0.0, -FRAC_PI_2, FRAC_PI_2];
         if c.x == 0.0 && c.y == 0.0 {
             return breaks;
         }
         // |c_xy|² t² + R² (m_y − m_x t)² = R² (1 + t²) for the tangent of the azimuth of a tangent plane.
-        let (a, b, d) = (
-            c.x * c.x - radius * radius * (1.0 - m.x * m.x),
-            -radius * radius * m.x * m.y,
-            -radius * radius * (m.x * m.x + m.z * m.z),
-        );
+        let (a, b, d) =
+            (c.x * c.x - radius * radius * (1.0 - m.x * m.x), -radius * radius * m.x * m.y, -radius * radius * (m.x * m.x + m.z * m.z));
         let discriminant = b * b - a * d;
         if discriminant >= 0.0 {
             let sum = -(b + discriminant.sqrt().copysign(b));
@@ -256,13 +185,8 @@ impl Disc {
         let mut azimuths = Vec::new();
         // Two halves of the rim, each rational in t = tan(ψ/2) from −1 to 1: p(1 + t²) = (c + Ru) + 2Rv t + (c − Ru) t².
         for u in [steepest, -steepest] {
-            let p = [
-                self.centre + self.radius * u,
-                2.0 * self.radius * level,
-                self.centre - self.radius * u,
-            ];
-            let form =
-                |a: DVec3, b: DVec3| cos * cos * (a.x * b.x + a.y * b.y) - sin * sin * (a.z * b.z);
+            let p = [self.centre + self.radius * u, 2.0 * self.radius * level, self.centre - self.radius * u];
+            let form = |a: DVec3, b: DVec3| cos * cos * (a.x * b.x + a.y * b.y) - sin * sin * (a.z * b.z);
             let quartic = [
                 form(p[0], p[0]),
                 2.0 * form(p[0], p[1]),
@@ -287,13 +211,7 @@ impl Disc {
     }
 
     fn strips(&self, breaks: &[f64], acceptance: Acceptance) -> f64 {
-        let Disc {
-            centre: c,
-            m,
-            radius,
-            height,
-            ..
-        } = *self;
+        let Disc { centre: c, m, radius, height, .. } = *self;
         let strip = |phi: f64| {
             let (sin, cos) = phi.sin_cos();
             // Components of the disc's normal in the half plane and across it.
@@ -310,14 +228,8 @@ impl Disc {
             }
             // The middle of the chord is the foot of the perpendicular from the centre to the line.
             let line = StripLine {
-                base: StripPoint {
-                    rho: c.x * cos + c.y * sin + offset * across * along / k,
-                    z: c.z + offset * across * m.z / k,
-                },
-                across: StripPoint {
-                    rho: along / k,
-                    z: m.z / k,
-                },
+                base: StripPoint { rho: c.x * cos + c.y * sin + offset * across * along / k, z: c.z + offset * across * m.z / k },
+                across: StripPoint { rho: along / k, z: m.z / k },
                 distance: height / k,
             };
             let half = margin.sqrt();

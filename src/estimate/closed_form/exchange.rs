@@ -47,27 +47,13 @@ pub fn polygons(first: &[DVec3], second: &[DVec3], rel_tol: f64) -> Option<Bound
     }
     // A common origin near the surfaces, then a common scale.
     let origin = first[0];
-    let size = first.iter().chain(second).fold(0.0_f64, |size, &v| {
-        size.max((v - origin).abs().max_element())
-    });
+    let size = first.iter().chain(second).fold(0.0_f64, |size, &v| size.max((v - origin).abs().max_element()));
     let scale = power_of_two_scale(size)?;
-    let [a, b] = [first, second].map(|vertices| {
-        vertices
-            .iter()
-            .map(|&v| (v - origin) * scale)
-            .collect::<Vec<_>>()
-    });
+    let [a, b] = [first, second].map(|vertices| vertices.iter().map(|&v| (v - origin) * scale).collect::<Vec<_>>());
     let contour = double_contour(&a, &b);
-    let result = if contour.error <= 0.5 * rel_tol * contour.value {
-        contour
-    } else {
-        area_average(&a, &b, rel_tol)?
-    };
+    let result = if contour.error <= 0.5 * rel_tol * contour.value { contour } else { area_average(&a, &b, rel_tol)? };
     let back = |v: f64| v / scale / scale;
-    Some(Bounded {
-        value: back(result.value),
-        error: back(result.error),
-    })
+    Some(Bounded { value: back(result.value), error: back(result.error) })
 }
 
 /// `½ |∮∮ ln(r/r₀) ds₁·ds₂|`.
@@ -75,11 +61,7 @@ fn double_contour(a: &[DVec3], b: &[DVec3]) -> Bounded {
     let centre = |v: &[DVec3]| v.iter().sum::<DVec3>() / v.len() as f64;
     let apart = (centre(a) - centre(b)).length();
     let unit_length = if apart > 0.0 { apart } else { 1.0 };
-    let edges = |v: &[DVec3]| {
-        (0..v.len())
-            .map(|i| (v[i], v[(i + 1) % v.len()]))
-            .collect::<Vec<_>>()
-    };
+    let edges = |v: &[DVec3]| (0..v.len()).map(|i| (v[i], v[(i + 1) % v.len()])).collect::<Vec<_>>();
     let (mut value, mut error) = (0.0, 0.0);
     for &(p0, p1) in &edges(a) {
         for &(q0, q1) in &edges(b) {
@@ -92,12 +74,7 @@ fn double_contour(a: &[DVec3], b: &[DVec3]) -> Bounded {
             let along = dq / lq;
             // Positions on the first edge that are nearest to the ends of the second: there the inner integral varies fastest.
             let mut breaks = vec![0.0, 1.0];
-            breaks.extend(
-                [q0, q1]
-                    .map(|q| (q - p0).dot(dp) / (lp * lp))
-                    .into_iter()
-                    .filter(|t| *t > 0.0 && *t < 1.0),
-            );
+            breaks.extend([q0, q1].map(|q| (q - p0).dot(dp) / (lp * lp)).into_iter().filter(|t| *t > 0.0 && *t < 1.0));
             breaks.sort_by(f64::total_cmp);
             breaks.dedup();
             let noise = std::cell::Cell::new(0.0_f64);
@@ -115,10 +92,7 @@ fn double_contour(a: &[DVec3], b: &[DVec3]) -> Bounded {
             error += cosine.abs() * (integral.error + noise.get());
         }
     }
-    Bounded {
-        value: 0.5 * value.abs(),
-        error: 0.5 * error,
-    }
+    Bounded { value: 0.5 * value.abs(), error: 0.5 * error }
 }
 
 /// `∫₀ˣ ln(√(t² + q²)/r₀) dt`.
@@ -131,17 +105,12 @@ fn log_integral(x: f64, q: f64, r0: f64) -> f64 {
 
 /// Closed form of the second polygon averaged over the first, triangle by triangle; the signs of a fan allow for re-entrant corners.
 fn area_average(a: &[DVec3], b: &[DVec3], rel_tol: f64) -> Option<Bounded> {
-    let area: DVec3 = a
-        .windows(2)
-        .skip(1)
-        .map(|pair| (pair[0] - a[0]).cross(pair[1] - a[0]))
-        .sum();
+    let area: DVec3 = a.windows(2).skip(1).map(|pair| (pair[0] - a[0]).cross(pair[1] - a[0])).sum();
     let mut normal = area.try_normalize()?;
     if b.iter().map(|&q| normal.dot(q - a[0])).sum::<f64>() < 0.0 {
         normal = -normal;
     }
-    let integrand =
-        |x: DVec3| polygon_two_sided(&b.iter().map(|&q| q - x).collect::<Vec<_>>(), normal);
+    let integrand = |x: DVec3| polygon_two_sided(&b.iter().map(|&q| q - x).collect::<Vec<_>>(), normal);
     let (mut value, mut error) = (0.0, 0.0);
     for pair in a.windows(2).skip(1) {
         let cross = (pair[0] - a[0]).cross(pair[1] - a[0]);
@@ -149,16 +118,9 @@ fn area_average(a: &[DVec3], b: &[DVec3], rel_tol: f64) -> Option<Bounded> {
         if triangle_area == 0.0 {
             continue;
         }
-        let mean = aperture_average(
-            Aperture::Triangle([a[0], pair[0], pair[1]]),
-            &integrand,
-            0.3 * rel_tol,
-        )?;
+        let mean = aperture_average(Aperture::Triangle([a[0], pair[0], pair[1]]), &integrand, 0.3 * rel_tol)?;
         value += triangle_area * mean.value;
         error += triangle_area.abs() * mean.error;
     }
-    (error <= rel_tol * value.abs()).then_some(Bounded {
-        value: value.abs(),
-        error,
-    })
+    (error <= rel_tol * value.abs()).then_some(Bounded { value: value.abs(), error })
 }

@@ -36,10 +36,7 @@ impl Acceptance {
         if half_angle_rad >= std::f64::consts::FRAC_PI_2 {
             Some(Acceptance::HEMISPHERE)
         } else if half_angle_rad > 0.0 {
-            Some(Acceptance {
-                cos: half_angle_rad.cos(),
-                sin: half_angle_rad.sin(),
-            })
+            Some(Acceptance { cos: half_angle_rad.cos(), sin: half_angle_rad.sin() })
         } else {
             None
         }
@@ -77,43 +74,28 @@ struct ChordEnd {
 
 impl StripLine {
     fn at(self, position: f64) -> ChordEnd {
-        let point = StripPoint {
-            rho: self.base.rho + position * self.across.z,
-            z: self.base.z - position * self.across.rho,
-        };
+        let point = StripPoint { rho: self.base.rho + position * self.across.z, z: self.base.z - position * self.across.rho };
         ChordEnd { position, point }
     }
 
     /// Where `by_rho ρ + by_z z` vanishes, between an end inside (value `inside`) and one outside (value `outside`).
-    fn limit(
-        self,
-        ends: [ChordEnd; 2],
-        [inside, outside]: [f64; 2],
-        by_rho: f64,
-        by_z: f64,
-    ) -> ChordEnd {
+    fn limit(self, ends: [ChordEnd; 2], [inside, outside]: [f64; 2], by_rho: f64, by_z: f64) -> ChordEnd {
         let base_position = self.base.rho * self.across.z - self.base.z * self.across.rho;
-        let from_foot = -self.distance * (by_rho * self.across.rho + by_z * self.across.z)
-            / (by_rho * self.across.z - by_z * self.across.rho);
+        let from_foot =
+            -self.distance * (by_rho * self.across.rho + by_z * self.across.z) / (by_rho * self.across.z - by_z * self.across.rho);
         if from_foot.abs() < 0.5 * base_position.abs().max(self.distance) {
             // Near the receiver: from the foot of the perpendicular, whose distance is known precisely.
             let point = StripPoint {
                 rho: self.distance * self.across.rho + from_foot * self.across.z,
                 z: self.distance * self.across.z - from_foot * self.across.rho,
             };
-            return ChordEnd {
-                position: from_foot - base_position,
-                point,
-            };
+            return ChordEnd { position: from_foot - base_position, point };
         }
         let t = inside / (inside - outside);
         let between = |p: f64, q: f64| p + (q - p) * t;
         ChordEnd {
             position: between(ends[0].position, ends[1].position),
-            point: StripPoint {
-                rho: between(ends[0].point.rho, ends[1].point.rho),
-                z: between(ends[0].point.z, ends[1].point.z),
-            },
+            point: StripPoint { rho: between(ends[0].point.rho, ends[1].point.rho), z: between(ends[0].point.z, ends[1].point.z) },
         }
     }
 
@@ -153,8 +135,5 @@ pub(super) fn integrate_azimuth(mut breaks: Vec<f64>, strip: &dyn Fn(f64) -> f64
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
     let sum = integrate_between(&breaks, strip, REL_TOL);
-    Integral {
-        value: 0.5 * sum.value,
-        error: 0.5 * sum.error,
-    }
+    Integral { value: 0.5 * sum.value, error: 0.5 * sum.error }
 }

@@ -20,19 +20,13 @@ struct Doubled {
 fn exact_sum(a: f64, b: f64) -> Doubled {
     let high = a + b;
     let b_part = high - a;
-    Doubled {
-        high,
-        low: (a - (high - b_part)) + (b - b_part),
-    }
+    Doubled { high, low: (a - (high - b_part)) + (b - b_part) }
 }
 
 /// `a · b` without rounding error.
 fn exact_product(a: f64, b: f64) -> Doubled {
     let high = a * b;
-    Doubled {
-        high,
-        low: a.mul_add(b, -high),
-    }
+    Doubled { high, low: a.mul_add(b, -high) }
 }
 
 impl Doubled {
@@ -42,10 +36,7 @@ impl Doubled {
     }
 
     fn minus(self, other: Doubled) -> Doubled {
-        self.plus(Doubled {
-            high: -other.high,
-            low: -other.low,
-        })
+        self.plus(Doubled { high: -other.high, low: -other.low })
     }
 
     fn times(self, factor: f64) -> Doubled {
@@ -56,19 +47,14 @@ impl Doubled {
 
 /// `a · b`, correctly rounded but for the last bits even where the terms cancel.
 pub(super) fn dot(a: DVec3, b: DVec3) -> f64 {
-    let sum = exact_product(a.x, b.x)
-        .plus(exact_product(a.y, b.y))
-        .plus(exact_product(a.z, b.z));
+    let sum = exact_product(a.x, b.x).plus(exact_product(a.y, b.y)).plus(exact_product(a.z, b.z));
     sum.high + sum.low
 }
 
 /// `a · (b × c)`, with an error far below one unit in the last place of the largest term.
 pub(super) fn triple(a: DVec3, b: DVec3, c: DVec3) -> f64 {
     let minor = |p: f64, q: f64, r: f64, s: f64| exact_product(p, s).minus(exact_product(q, r));
-    let sum = minor(b.y, b.z, c.y, c.z)
-        .times(a.x)
-        .plus(minor(b.z, b.x, c.z, c.x).times(a.y))
-        .plus(minor(b.x, b.y, c.x, c.y).times(a.z));
+    let sum = minor(b.y, b.z, c.y, c.z).times(a.x).plus(minor(b.z, b.x, c.z, c.x).times(a.y)).plus(minor(b.x, b.y, c.x, c.y).times(a.z));
     sum.high + sum.low
 }
 
@@ -119,11 +105,7 @@ impl Frame {
 
     /// Receiver coordinates of a vector.
     pub(super) fn to_local(&self, v: DVec3) -> DVec3 {
-        DVec3::new(
-            dot(self.tangent, v),
-            dot(self.bitangent, v),
-            dot(self.normal, v) / self.normal_length,
-        )
+        DVec3::new(dot(self.tangent, v), dot(self.bitangent, v), dot(self.normal, v) / self.normal_length)
     }
 
     /// The same frame turned about the normal so that `v` has no second coordinate and a first one that is not negative.
@@ -134,10 +116,6 @@ impl Frame {
             return self;
         }
         let (cos, sin) = (local.x / radius, local.y / radius);
-        Frame {
-            tangent: self.tangent * cos + self.bitangent * sin,
-            bitangent: self.bitangent * cos - self.tangent * sin,
-            ..self
-        }
+        Frame { tangent: self.tangent * cos + self.bitangent * sin, bitangent: self.bitangent * cos - self.tangent * sin, ..self }
     }
 }

@@ -56,11 +56,7 @@ pub fn disc_solid_angle(radius_m: f64, height_m: f64, lateral_m: f64) -> f64 {
     let Some(scale) = power_of_two_scale(size) else {
         return 0.0;
     };
-    let (radius, height, lateral) = (
-        radius_m * scale,
-        height_m.abs() * scale,
-        lateral_m.abs() * scale,
-    );
+    let (radius, height, lateral) = (radius_m * scale, height_m.abs() * scale, lateral_m.abs() * scale);
     if radius.is_nan() || radius <= 0.0 || height.is_nan() || lateral.is_nan() {
         return 0.0;
     }
@@ -83,33 +79,21 @@ pub fn disc_solid_angle(radius_m: f64, height_m: f64, lateral_m: f64) -> f64 {
             let half_chord = radius_on_chord(radius, lateral * phi.sin());
             // For cos φ < 0 the sum would cancel; the product of the two chord ends is R² − l².
             let along = lateral * phi.cos();
-            let rho = if along < 0.0 {
-                (radius - lateral) * (radius + lateral) / (half_chord - along)
-            } else {
-                half_chord + along
-            };
+            let rho = if along < 0.0 { (radius - lateral) * (radius + lateral) / (half_chord - along) } else { half_chord + along };
             let r = rho.hypot(height);
             2.0 * (rho / r) * (rho / (r + height))
         };
-        return integrate_between(&[0.0, FRAC_PI_2, PI], &strip, 1e-13)
-            .value
-            .clamp(0.0, 2.0 * PI);
+        return integrate_between(&[0.0, FRAC_PI_2, PI], &strip, 1e-13).value.clamp(0.0, 2.0 * PI);
     }
     // Outside: sin φ = (R/l) sin u removes the square roots at the tangents; cos θ₁ − cos θ₂ = h(ρ₂² − ρ₁²)/(r₁r₂(r₁ + r₂)).
     let strip = |u: f64| {
         let half_chord = radius * u.cos();
         let along = radius_on_chord(lateral, radius * u.sin());
-        let near = if along > half_chord {
-            (lateral - radius) * (lateral + radius) / (along + half_chord)
-        } else {
-            0.0
-        };
+        let near = if along > half_chord { (lateral - radius) * (lateral + radius) / (along + half_chord) } else { 0.0 };
         let (r1, r2) = (near.hypot(height), (along + half_chord).hypot(height));
         8.0 * (half_chord / r1) * (half_chord / r2) * (height / (r1 + r2))
     };
-    integrate_between(&[0.0, FRAC_PI_2], &strip, 1e-13)
-        .value
-        .clamp(0.0, 2.0 * PI)
+    integrate_between(&[0.0, FRAC_PI_2], &strip, 1e-13).value.clamp(0.0, 2.0 * PI)
 }
 
 /// √(r² − d²) without cancellation.
@@ -120,11 +104,7 @@ fn radius_on_chord(r: f64, d: f64) -> f64 {
 /// Solid angle, sr, of the parallelogram with one corner at `corner` (m, relative to the point) and edges `edge_u` and `edge_v` (m).
 /// In its plane: 2π strictly inside (the limit), 0 elsewhere.
 pub fn parallelogram_solid_angle(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> f64 {
-    let size = corner
-        .abs()
-        .max(edge_u.abs())
-        .max(edge_v.abs())
-        .max_element();
+    let size = corner.abs().max(edge_u.abs()).max(edge_v.abs()).max_element();
     let Some(scale) = power_of_two_scale(size) else {
         return 0.0;
     };
@@ -137,10 +117,7 @@ pub fn parallelogram_solid_angle(corner: DVec3, edge_u: DVec3, edge_v: DVec3) ->
     if volume == 0.0 {
         let w = u.cross(v);
         let area_squared = w.length_squared();
-        let (s, t) = (
-            -a.cross(v).dot(w) / area_squared,
-            a.cross(u).dot(w) / area_squared,
-        );
+        let (s, t) = (-a.cross(v).dot(w) / area_squared, a.cross(u).dot(w) / area_squared);
         let inside = area_squared > 0.0 && s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
         return if inside { 2.0 * PI } else { 0.0 };
     }

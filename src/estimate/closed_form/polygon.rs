@@ -26,17 +26,12 @@ pub(super) const MAX_ROUNDING: f64 = 1e-11;
 
 /// Projected solid angle, sr, of a one-sided polygon; 0 for a receiver behind it.
 pub fn polygon(vertices: &[DVec3], normal: DVec3) -> f64 {
-    if receiver_in_front(vertices) {
-        polygon_two_sided(vertices, normal)
-    } else {
-        0.0
-    }
+    if receiver_in_front(vertices) { polygon_two_sided(vertices, normal) } else { 0.0 }
 }
 
 /// Projected solid angle, sr, of a polygon that emits to both sides.
 pub fn polygon_two_sided(vertices: &[DVec3], normal: DVec3) -> f64 {
-    LocalPolygon::new(vertices, normal)
-        .map_or(0.0, |polygon| polygon.above_horizon().clamp(0.0, PI))
+    LocalPolygon::new(vertices, normal).map_or(0.0, |polygon| polygon.above_horizon().clamp(0.0, PI))
 }
 
 /// Whether the receiver is in front of a polygon, or in its plane.
@@ -49,9 +44,7 @@ fn scaled(vertices: &[DVec3]) -> Option<Vec<DVec3>> {
     if vertices.len() < 3 || !vertices.iter().all(|v| v.is_finite()) {
         return None;
     }
-    let size = vertices
-        .iter()
-        .fold(0.0_f64, |size, v| size.max(v.abs().max_element()));
+    let size = vertices.iter().fold(0.0_f64, |size, v| size.max(v.abs().max_element()));
     let scale = power_of_two_scale(size)?;
     Some(vertices.iter().map(|&v| v * scale).collect())
 }
@@ -59,11 +52,7 @@ fn scaled(vertices: &[DVec3]) -> Option<Vec<DVec3>> {
 /// First vertex times twice the vector area: the distance of the plane times twice the area, positive behind the polygon.
 fn volume(vertices: &[DVec3]) -> f64 {
     let first = vertices[0];
-    vertices
-        .windows(2)
-        .skip(1)
-        .map(|pair| triple(first, pair[0], pair[1]))
-        .sum()
+    vertices.windows(2).skip(1).map(|pair| triple(first, pair[0], pair[1])).sum()
 }
 
 /// A polygon in receiver coordinates, scaled; the first axis points towards the first vertex.
@@ -87,10 +76,7 @@ impl LocalPolygon {
         let nearest = (0..world.len()).min_by(|i, j| length(i).total_cmp(&length(j)))?;
         world.rotate_left(nearest);
         let first = world[0];
-        let area: DVec3 = world[1..]
-            .windows(2)
-            .map(|pair| (pair[0] - first).cross(pair[1] - first))
-            .sum();
+        let area: DVec3 = world[1..].windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum();
         let twice_area = area.length();
         if twice_area.is_nan() || twice_area <= 0.0 {
             return None;
@@ -98,11 +84,7 @@ impl LocalPolygon {
         let volume = volume(&world);
         let frame = Frame::new(normal)?.turned_towards(first);
         let m = frame.to_local(area / twice_area);
-        let away = if volume == 0.0 {
-            m.z < 0.0
-        } else {
-            volume < 0.0
-        };
+        let away = if volume == 0.0 { m.z < 0.0 } else { volume < 0.0 };
         Some(LocalPolygon {
             vertices: world.iter().map(|&v| frame.to_local(v)).collect(),
             relative: world.iter().map(|&v| frame.to_local(v - first)).collect(),
@@ -120,11 +102,7 @@ impl LocalPolygon {
     /// Projected solid angle above the horizon.
     pub(super) fn above_horizon(&self) -> f64 {
         if self.height == 0.0 {
-            return if self.contains_direction(DVec3::ZERO) {
-                FRAC_PI_2 * (1.0 + self.m.z).max(0.0)
-            } else {
-                0.0
-            };
+            return if self.contains_direction(DVec3::ZERO) { FRAC_PI_2 * (1.0 + self.m.z).max(0.0) } else { 0.0 };
         }
         let clipped = self.clipped_at_horizon();
         if clipped.iter().all(|v| v.z <= 0.0) {
@@ -135,11 +113,7 @@ impl LocalPolygon {
             sum.add(clipped[i], clipped[(i + 1) % clipped.len()]);
         }
         let value = self.winding * sum.value;
-        if sum.rounding <= MAX_ROUNDING * value {
-            value
-        } else {
-            self.strips(&[], Acceptance::HEMISPHERE)
-        }
+        if sum.rounding <= MAX_ROUNDING * value { value } else { self.strips(&[], Acceptance::HEMISPHERE) }
     }
 
     /// Vertices at and above the horizon, and the points where edges pass through it (Sutherland–Hodgman).
@@ -203,11 +177,7 @@ impl LocalPolygon {
             let (a, b) = (self.vertices[i], self.vertices[(i + 1) % n]);
             let (da, db) = (self.relative[i], self.relative[(i + 1) % n]);
             let at = |d: DVec3| (first.x * d.y).atan2(first.x * (first.x + d.x));
-            breaks.push(if first.x > 0.0 {
-                at(da)
-            } else {
-                a.y.atan2(a.x)
-            });
+            breaks.push(if first.x > 0.0 { at(da) } else { a.y.atan2(a.x) });
             if (a.z > 0.0) != (b.z > 0.0) {
                 let p = between(da, db, a.z, b.z);
                 breaks.push(if first.x > 0.0 { at(p) } else { p.y.atan2(p.x) });
@@ -217,21 +187,11 @@ impl LocalPolygon {
             let (sin, cos) = phi.sin_cos();
             let along = self.m.x * cos + self.m.y * sin;
             let k = along.hypot(self.m.z);
-            let across = StripPoint {
-                rho: along / k,
-                z: self.m.z / k,
-            };
+            let across = StripPoint { rho: along / k, z: self.m.z / k };
             // Foot of the perpendicular, in the plane of the polygon, from the first vertex to the line.
             let offset = -first.x * sin / k * (self.m.y * cos - self.m.x * sin);
-            let base = StripPoint {
-                rho: first.x * cos + offset * across.rho,
-                z: first.z + offset * across.z,
-            };
-            let line = StripLine {
-                base,
-                across,
-                distance: self.height / k,
-            };
+            let base = StripPoint { rho: first.x * cos + offset * across.rho, z: first.z + offset * across.z };
+            let line = StripLine { base, across, distance: self.height / k };
             let plane_distance = |d: DVec3| -first.x * sin + (d.y * cos - d.x * sin);
             let mut ends: Vec<f64> = Vec::with_capacity(4);
             for i in 0..n {
@@ -244,10 +204,7 @@ impl LocalPolygon {
                 ends.push((p.x * cos + p.y * sin) * across.z - p.z * across.rho);
             }
             ends.sort_by(f64::total_cmp);
-            let sum: f64 = ends
-                .chunks_exact(2)
-                .map(|pair| line.chord(pair[0], pair[1], acceptance))
-                .sum();
+            let sum: f64 = ends.chunks_exact(2).map(|pair| line.chord(pair[0], pair[1], acceptance)).sum();
             if sum.is_finite() { sum.min(1.0) } else { 0.0 }
         };
         integrate_azimuth(breaks, &strip).value
@@ -257,11 +214,7 @@ impl LocalPolygon {
 /// The point between `a` and `b` where a linear function with the values `at_a` and `at_b` vanishes; from the nearer end, so that
 /// a long edge does not spoil the precision of its other end.
 fn between(a: DVec3, b: DVec3, at_a: f64, at_b: f64) -> DVec3 {
-    if at_a.abs() <= at_b.abs() {
-        a + (b - a) * (at_a / (at_a - at_b))
-    } else {
-        b + (a - b) * (at_b / (at_b - at_a))
-    }
+    if at_a.abs() <= at_b.abs() { a + (b - a) * (at_a / (at_a - at_b)) } else { b + (a - b) * (at_b / (at_b - at_a)) }
 }
 
 /// `½ Σ θ γ_z` over edges, and an estimate of its rounding error.

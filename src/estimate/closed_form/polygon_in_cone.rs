@@ -25,10 +25,7 @@ use std::f64::consts::PI;
 ///
 /// Contour of straight edges and arcs of the cone, each arc of azimuth Δφ with `½ sin²β Δφ`.
 pub fn polygon_in_cone(vertices: &[DVec3], normal: DVec3, half_angle_rad: f64) -> f64 {
-    let (Some(polygon), Some(acceptance)) = (
-        LocalPolygon::new(vertices, normal),
-        Acceptance::new(half_angle_rad),
-    ) else {
+    let (Some(polygon), Some(acceptance)) = (LocalPolygon::new(vertices, normal), Acceptance::new(half_angle_rad)) else {
         return 0.0;
     };
     if acceptance.cos == 0.0 {
@@ -36,15 +33,9 @@ pub fn polygon_in_cone(vertices: &[DVec3], normal: DVec3, half_angle_rad: f64) -
     }
     if polygon.height == 0.0 {
         let inside = polygon.contains_direction(DVec3::ZERO);
-        return if inside {
-            cone::half_space_about_axis(polygon.m, acceptance)
-        } else {
-            0.0
-        };
+        return if inside { cone::half_space_about_axis(polygon.m, acceptance) } else { 0.0 };
     }
-    polygon
-        .accepted(acceptance)
-        .clamp(0.0, PI * acceptance.sin * acceptance.sin)
+    polygon.accepted(acceptance).clamp(0.0, PI * acceptance.sin * acceptance.sin)
 }
 
 impl LocalPolygon {
@@ -73,23 +64,14 @@ impl LocalPolygon {
         let mut arc = 0.0;
         for i in 0..azimuths.len() {
             let start = azimuths[i];
-            let end = if i + 1 < azimuths.len() {
-                azimuths[i + 1]
-            } else {
-                azimuths[0] + 2.0 * PI
-            };
+            let end = if i + 1 < azimuths.len() { azimuths[i + 1] } else { azimuths[0] + 2.0 * PI };
             let (y, x) = (0.5 * (start + end)).sin_cos();
             if end > start && self.contains_direction(DVec3::new(sin * x, sin * y, cos)) {
                 arc += end - start;
             }
         }
         let value = self.winding * sum.value + 0.5 * sin * sin * arc;
-        let rounding = sum.rounding
-            + if arc > 0.0 {
-                8.0 * f64::EPSILON * sin * sin
-            } else {
-                0.0
-            };
+        let rounding = sum.rounding + if arc > 0.0 { 8.0 * f64::EPSILON * sin * sin } else { 0.0 };
         if sum.value == 0.0 && arc == 0.0 {
             0.0
         } else if rounding <= MAX_ROUNDING * value {
@@ -127,16 +109,9 @@ fn edge_crossings(a: DVec3, d: DVec3, acceptance: Acceptance) -> Vec<f64> {
         return Vec::new();
     }
     let rho = a.x.hypot(a.y);
-    let (first, half, last) = (
-        form(d, d),
-        form(a, d),
-        (cos * rho - sin * a.z) * (cos * rho + sin * a.z),
-    );
+    let (first, half, last) = (form(d, d), form(a, d), (cos * rho - sin * a.z) * (cos * rho + sin * a.z));
     let sum = -(half + discriminant.sqrt().copysign(half));
-    let mut roots: Vec<f64> = [sum / first, last / sum]
-        .into_iter()
-        .filter(|t| *t > 0.0 && *t < 1.0)
-        .collect();
+    let mut roots: Vec<f64> = [sum / first, last / sum].into_iter().filter(|t| *t > 0.0 && *t < 1.0).collect();
     roots.sort_by(f64::total_cmp);
     roots
 }

@@ -42,13 +42,8 @@ const KRONROD_WEIGHTS: [f64; 11] = [
     0.147_739_104_901_338_49,
     0.149_445_554_002_916_9,
 ];
-const GAUSS_WEIGHTS: [f64; 5] = [
-    0.066_671_344_308_688_14,
-    0.149_451_349_150_580_6,
-    0.219_086_362_515_982_04,
-    0.269_266_719_309_996_35,
-    0.295_524_224_714_752_87,
-];
+const GAUSS_WEIGHTS: [f64; 5] =
+    [0.066_671_344_308_688_14, 0.149_451_349_150_580_6, 0.219_086_362_515_982_04, 0.269_266_719_309_996_35, 0.295_524_224_714_752_87];
 
 /// Most panels an integral may be divided into.
 const MAX_PANELS: usize = 1500;
@@ -69,11 +64,7 @@ fn gauss_kronrod(f: &dyn Fn(usize, f64) -> f64, piece: usize, range: Range<f64>)
     let mut magnitude = 0.0;
     for (k, (&node, &weight)) in KRONROD_NODES.iter().zip(&KRONROD_WEIGHTS).enumerate() {
         let below = f(piece, centre - half * node);
-        let above = if k < 10 {
-            f(piece, centre + half * node)
-        } else {
-            0.0
-        };
+        let above = if k < 10 { f(piece, centre + half * node) } else { 0.0 };
         values[2 * k] = below;
         if k < 10 {
             values[2 * k + 1] = above;
@@ -85,47 +76,24 @@ fn gauss_kronrod(f: &dyn Fn(usize, f64) -> f64, piece: usize, range: Range<f64>)
         }
     }
     let mean = 0.5 * kronrod;
-    let spread: f64 = values
-        .iter()
-        .enumerate()
-        .map(|(i, v)| KRONROD_WEIGHTS[i / 2] * (v - mean).abs())
-        .sum();
+    let spread: f64 = values.iter().enumerate().map(|(i, v)| KRONROD_WEIGHTS[i / 2] * (v - mean).abs()).sum();
     let mut error = (kronrod - gauss).abs();
     if spread > 0.0 && error > 0.0 {
         error = spread * (200.0 * error / spread).powf(1.5).min(1.0);
     }
     error = error.max(4.0 * f64::EPSILON * magnitude);
-    Panel {
-        piece,
-        range,
-        value: kronrod * half,
-        error: error * half.abs(),
-    }
+    Panel { piece, range, value: kronrod * half, error: error * half.abs() }
 }
 
 /// Integral of `f(piece, u)` over u from 0 to 1, summed over `pieces` pieces.
-fn integrate_pieces(
-    pieces: usize,
-    f: &dyn Fn(usize, f64) -> f64,
-    rel_tol: f64,
-    abs_tol: f64,
-) -> Integral {
-    let mut panels: Vec<Panel> = (0..pieces)
-        .map(|piece| gauss_kronrod(f, piece, 0.0..1.0))
-        .collect();
+fn integrate_pieces(pieces: usize, f: &dyn Fn(usize, f64) -> f64, rel_tol: f64, abs_tol: f64) -> Integral {
+    let mut panels: Vec<Panel> = (0..pieces).map(|piece| gauss_kronrod(f, piece, 0.0..1.0)).collect();
     loop {
         let value: f64 = panels.iter().map(|panel| panel.value).sum();
         let error: f64 = panels.iter().map(|panel| panel.error).sum();
-        let worst = panels
-            .iter()
-            .enumerate()
-            .max_by(|a, b| a.1.error.total_cmp(&b.1.error))
-            .map(|(index, _)| index);
+        let worst = panels.iter().enumerate().max_by(|a, b| a.1.error.total_cmp(&b.1.error)).map(|(index, _)| index);
         let Some(worst) = worst else {
-            return Integral {
-                value: 0.0,
-                error: 0.0,
-            };
+            return Integral { value: 0.0, error: 0.0 };
         };
         if error <= abs_tol.max(rel_tol * value.abs()) || panels.len() >= MAX_PANELS {
             return Integral { value, error };
@@ -148,12 +116,7 @@ pub(super) fn integrate_between(breaks: &[f64], f: &dyn Fn(f64) -> f64, rel_tol:
 }
 
 /// The same, ended as well at an absolute tolerance: the rounding noise of an integrand with cancellation.
-pub(super) fn integrate_to(
-    breaks: &[f64],
-    f: &dyn Fn(f64) -> f64,
-    rel_tol: f64,
-    abs_tol: f64,
-) -> Integral {
+pub(super) fn integrate_to(breaks: &[f64], f: &dyn Fn(f64) -> f64, rel_tol: f64, abs_tol: f64) -> Integral {
     let mapped = |piece: usize, u: f64| {
         let width = breaks[piece + 1] - breaks[piece];
         // From the nearer end, so that a distance to the end keeps its relative precision.

@@ -9,21 +9,11 @@
 
 /// Values of t in [−1, 1] at which a polynomial (ascending coefficients) changes its sign: between the extrema, by bisection.
 pub(super) fn sign_changes_in_unit_interval(polynomial: &[f64]) -> Vec<f64> {
-    let value = |t: f64| {
-        polynomial
-            .iter()
-            .rev()
-            .fold(0.0, |sum, &coefficient| sum * t + coefficient)
-    };
+    let value = |t: f64| polynomial.iter().rev().fold(0.0, |sum, &coefficient| sum * t + coefficient);
     if polynomial.len() < 2 {
         return Vec::new();
     }
-    let derivative: Vec<f64> = polynomial
-        .iter()
-        .enumerate()
-        .skip(1)
-        .map(|(k, &c)| k as f64 * c)
-        .collect();
+    let derivative: Vec<f64> = polynomial.iter().enumerate().skip(1).map(|(k, &c)| k as f64 * c).collect();
     let mut nodes = vec![-1.0];
     nodes.extend(sign_changes_in_unit_interval(&derivative));
     nodes.push(1.0);

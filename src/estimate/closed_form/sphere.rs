@@ -67,17 +67,8 @@ pub fn cap(half_angle_rad: f64, tilt_rad: f64) -> f64 {
     // π/2 − τ, but from the cosine: the rounded right angle is not exact.
     let elevation = tilt.cos().atan2(tilt.sin());
     let excess = (half_angle_rad + elevation).sin() * (half_angle_rad - elevation).sin();
-    let beyond = if elevation.abs() >= half_angle_rad {
-        -1.0
-    } else {
-        excess
-    };
-    projected_cap(
-        half_angle_rad.sin(),
-        half_angle_rad.cos(),
-        tilt.cos(),
-        beyond,
-    )
+    let beyond = if elevation.abs() >= half_angle_rad { -1.0 } else { excess };
+    projected_cap(half_angle_rad.sin(), half_angle_rad.cos(), tilt.cos(), beyond)
 }
 
 /// Projected solid angle, sr, of a cap of the sphere of directions within a cone; the same outline as a disc.
@@ -101,13 +92,7 @@ pub fn cap_in_cone(cap_half_angle_rad: f64, tilt_rad: f64, half_angle_rad: f64) 
     } else if cap_half_angle_rad == FRAC_PI_2 {
         cone::half_space_about_axis(axis, acceptance)
     } else {
-        disc::disc_in_acceptance(
-            axis * cap_half_angle_rad.cos(),
-            axis,
-            cap_half_angle_rad.sin(),
-            DVec3::Z,
-            acceptance,
-        )
+        disc::disc_in_acceptance(axis * cap_half_angle_rad.cos(), axis, cap_half_angle_rad.sin(), DVec3::Z, acceptance)
     }
 }
 
@@ -128,8 +113,7 @@ fn projected_cap(sin: f64, cos: f64, tilt_cos: f64, excess: f64) -> f64 {
 fn sunk_part(sin: f64, cos: f64, s: f64, q: f64) -> f64 {
     let tau = q / cos;
     if tau < 0.7 * s {
-        let common =
-            tau * tau * tau * tau * tau * (1.0 - s * s) / (3.0 * s * s * (1.0 + tau * tau));
+        let common = tau * tau * tau * tau * tau * (1.0 - s * s) / (3.0 * s * s * (1.0 + tau * tau));
         return atan_beyond_third(tau) + common - sin * sin * s * atan_beyond_third(tau / s);
     }
     let chi = q.atan2(cos * s);
@@ -188,40 +172,20 @@ impl SphericalCap {
             return Some((Seen::Enclosing, n));
         }
         let cos = ((distance - radius) * (distance + radius)).sqrt() / distance;
-        Some((
-            Seen::Cap(SphericalCap {
-                sin: radius / distance,
-                cos,
-                axis: unit(c)?,
-            }),
-            n,
-        ))
+        Some((Seen::Cap(SphericalCap { sin: radius / distance, cos, axis: unit(c)? }), n))
     }
 
     fn above_horizon(&self, n: DVec3) -> f64 {
         let tilt_cos = dot(n, self.axis);
-        projected_cap(
-            self.sin,
-            self.cos,
-            tilt_cos,
-            (self.sin - tilt_cos.abs()) * (self.sin + tilt_cos.abs()),
-        )
+        projected_cap(self.sin, self.cos, tilt_cos, (self.sin - tilt_cos.abs()) * (self.sin + tilt_cos.abs()))
     }
 
     /// Two circles on the sphere of directions; the cap has the outline of a disc at distance cos α of radius sin α.
     fn in_cone(&self, normal: DVec3, acceptance: Acceptance) -> f64 {
         if self.cos > 0.0 {
-            disc::disc_in_acceptance(
-                self.axis * self.cos,
-                self.axis,
-                self.sin,
-                normal,
-                acceptance,
-            )
+            disc::disc_in_acceptance(self.axis * self.cos, self.axis, self.sin, normal, acceptance)
         } else {
-            Frame::new(normal).map_or(0.0, |frame| {
-                cone::half_space_about_axis(frame.to_local(self.axis), acceptance)
-            })
+            Frame::new(normal).map_or(0.0, |frame| cone::half_space_about_axis(frame.to_local(self.axis), acceptance))
         }
     }
 }

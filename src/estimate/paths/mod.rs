@@ -28,4 +28,3 @@ const ROULETTE_AFTER: u32 = 3;
 
 /// Reflections without loss, one after the other, after which a path is taken to be endless.
 const ENDLESS: u32 = 100_000;
-

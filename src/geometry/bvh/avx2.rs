@@ -27,8 +27,7 @@ mod x86_64 {
     impl Avx2 {
         /// Asks the processor.
         pub(in super::super) fn detect() -> Option<Avx2> {
-            (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi1"))
-                .then_some(Avx2(()))
+            (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi1")).then_some(Avx2(()))
         }
 
         /// See [`Bvh::closest`].
@@ -64,13 +63,7 @@ mod x86_64 {
         }
 
         #[inline(always)]
-        fn triangles(
-            self,
-            packet: &Packet,
-            ray: &Prepared,
-            t_best: f32,
-            crossing: &mut Crossing,
-        ) -> u32 {
+        fn triangles(self, packet: &Packet, ray: &Prepared, t_best: f32, crossing: &mut Crossing) -> u32 {
             // SAFETY: (1), self is the permission.
             unsafe { triangles(packet, ray, t_best, crossing) }
         }
@@ -80,12 +73,7 @@ mod x86_64 {
             if child & LEAF == 0 {
                 touch::<4>(bvh.nodes.as_ptr().wrapping_add(child as usize).cast());
             } else {
-                touch::<5>(
-                    bvh.packets
-                        .as_ptr()
-                        .wrapping_add((child & !LEAF) as usize)
-                        .cast(),
-                );
+                touch::<5>(bvh.packets.as_ptr().wrapping_add((child & !LEAF) as usize).cast());
             }
         }
     }
@@ -115,10 +103,7 @@ mod x86_64 {
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
     fn slab(row: &[f32; 8], origin: f32, scale: f32) -> __m256 {
-        _mm256_mul_ps(
-            _mm256_sub_ps(load(row), _mm256_set1_ps(origin)),
-            _mm256_set1_ps(scale),
-        )
+        _mm256_mul_ps(_mm256_sub_ps(load(row), _mm256_set1_ps(origin)), _mm256_set1_ps(scale))
     }
 
     #[inline]
@@ -127,14 +112,8 @@ mod x86_64 {
         let mut near = _mm256_set1_ps(ray.t_min);
         let mut far = _mm256_set1_ps(t_best);
         for i in [2, 1, 0] {
-            near = _mm256_max_ps(
-                slab(&node.bounds[ray.near[i]], ray.origin[i], ray.near_scale[i]),
-                near,
-            );
-            far = _mm256_min_ps(
-                slab(&node.bounds[ray.far[i]], ray.origin[i], ray.far_scale[i]),
-                far,
-            );
+            near = _mm256_max_ps(slab(&node.bounds[ray.near[i]], ray.origin[i], ray.near_scale[i]), near);
+            far = _mm256_min_ps(slab(&node.bounds[ray.far[i]], ray.origin[i], ray.far_scale[i]), far);
         }
         store(entry, near);
         _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(near, far)) as u32
@@ -148,14 +127,8 @@ mod x86_64 {
         let origin = [kx, ky, kz].map(|k| _mm256_set1_ps(ray.origin[k]));
         let shear = |rows: &[[f32; 8]; 3]| {
             let z = _mm256_sub_ps(load(&rows[kz]), origin[2]);
-            let x = _mm256_sub_ps(
-                _mm256_sub_ps(load(&rows[kx]), origin[0]),
-                _mm256_mul_ps(sx, z),
-            );
-            let y = _mm256_sub_ps(
-                _mm256_sub_ps(load(&rows[ky]), origin[1]),
-                _mm256_mul_ps(sy, z),
-            );
+            let x = _mm256_sub_ps(_mm256_sub_ps(load(&rows[kx]), origin[0]), _mm256_mul_ps(sx, z));
+            let y = _mm256_sub_ps(_mm256_sub_ps(load(&rows[ky]), origin[1]), _mm256_mul_ps(sy, z));
             [x, y, z]
         };
         let [ax, ay, az] = shear(&packet.vertex[0]);
@@ -166,25 +139,14 @@ mod x86_64 {
         let w = _mm256_sub_ps(_mm256_mul_ps(bx, ay), _mm256_mul_ps(by, ax));
         let zero = _mm256_setzero_ps();
         let all = |p: __m256, q: __m256, r: __m256| _mm256_and_ps(_mm256_and_ps(p, q), r);
-        let front = all(
-            _mm256_cmp_ps::<_CMP_GE_OQ>(u, zero),
-            _mm256_cmp_ps::<_CMP_GE_OQ>(v, zero),
-            _mm256_cmp_ps::<_CMP_GE_OQ>(w, zero),
-        );
-        let back = all(
-            _mm256_cmp_ps::<_CMP_LE_OQ>(u, zero),
-            _mm256_cmp_ps::<_CMP_LE_OQ>(v, zero),
-            _mm256_cmp_ps::<_CMP_LE_OQ>(w, zero),
-        );
+        let front = all(_mm256_cmp_ps::<_CMP_GE_OQ>(u, zero), _mm256_cmp_ps::<_CMP_GE_OQ>(v, zero), _mm256_cmp_ps::<_CMP_GE_OQ>(w, zero));
+        let back = all(_mm256_cmp_ps::<_CMP_LE_OQ>(u, zero), _mm256_cmp_ps::<_CMP_LE_OQ>(v, zero), _mm256_cmp_ps::<_CMP_LE_OQ>(w, zero));
         let inside = _mm256_or_ps(front, back);
         if _mm256_movemask_ps(inside) == 0 {
             return 0;
         }
         let determinant = _mm256_add_ps(_mm256_add_ps(u, v), w);
-        let height = _mm256_add_ps(
-            _mm256_add_ps(_mm256_mul_ps(u, az), _mm256_mul_ps(v, bz)),
-            _mm256_mul_ps(w, cz),
-        );
+        let height = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(u, az), _mm256_mul_ps(v, bz)), _mm256_mul_ps(w, cz));
         let t = _mm256_div_ps(_mm256_mul_ps(sz, height), determinant);
         let after = _mm256_cmp_ps::<_CMP_GT_OQ>(t, _mm256_set1_ps(ray.t_min));
         let before = _mm256_cmp_ps::<_CMP_LT_OQ>(t, _mm256_set1_ps(t_best));

@@ -43,11 +43,7 @@ struct Bounds {
 
 impl Bounds {
     fn around(inside: &[Bounds], triangle: u32) -> Bounds {
-        let mut all = Bounds {
-            min: [f32::INFINITY; 3],
-            max: [f32::NEG_INFINITY; 3],
-            triangle,
-        };
+        let mut all = Bounds { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3], triangle };
         for bounds in inside {
             for axis in 0..3 {
                 all.min[axis] = all.min[axis].min(bounds.min[axis]);
@@ -67,42 +63,26 @@ impl Boundable for Bounds {
         let hash = self.triangle.wrapping_mul(0x9e37_79b9);
         let share = (hash ^ (hash >> 15)).wrapping_mul(0x85eb_ca6b) >> 8;
         let share = share as f32 * (JITTER / (1 << 24) as f32);
-        let max: [f32; 3] =
-            std::array::from_fn(|i| self.max[i] + share * (self.max[i] - self.min[i]));
+        let max: [f32; 3] = std::array::from_fn(|i| self.max[i] + share * (self.max[i] - self.min[i]));
         Aabb::new(self.min.into(), max.into())
     }
 }
 
 /// Builds the tree; see [`super::Bvh::build`].
 pub(super) fn build(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Tree {
-    let bounds: Vec<Bounds> = triangles
-        .iter()
-        .enumerate()
-        .filter_map(|(index, &corners)| bounds_of(vertices, corners, index))
-        .collect();
+    let bounds: Vec<Bounds> = triangles.iter().enumerate().filter_map(|(index, &corners)| bounds_of(vertices, corners, index)).collect();
     let mut builder = Builder {
         vertices,
         triangles,
-        tree: Tree {
-            nodes: vec![Node::EMPTY],
-            packets: Vec::new(),
-            triangle_count: bounds.len(),
-            depth: 1,
-        },
+        tree: Tree { nodes: vec![Node::EMPTY], packets: Vec::new(), triangle_count: bounds.len(), depth: 1 },
     };
     let (mut bounds, heaps) = gather_heaps(bounds);
     if bounds.len() <= LEAF_TRIANGLES {
-        let mut inside = bounds
-            .drain(..)
-            .flat_map(|bounds| members(bounds, &heaps))
-            .collect::<Vec<_>>();
+        let mut inside = bounds.drain(..).flat_map(|bounds| members(bounds, &heaps)).collect::<Vec<_>>();
         builder.fill_balanced(0, 1, &mut inside);
     } else {
-        let params = BvhBuildParams {
-            max_prims_per_leaf: LEAF_TRIANGLES as u32,
-            collapse_traversal_cost: 8.0,
-            ..BvhBuildParams::medium_build()
-        };
+        let params =
+            BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES as u32, collapse_traversal_cost: 8.0, ..BvhBuildParams::medium_build() };
         let binary = build_bvh2(&bounds, params, &mut Duration::default());
         builder.fill_from_binary(&binary, &bounds, &heaps);
     }
@@ -126,11 +106,7 @@ fn gather_heaps(bounds: Vec<Bounds>) -> (Vec<Bounds>, Vec<Vec<Bounds>>) {
     };
     let mut keys: Vec<u64> = bounds.iter().map(cell).collect();
     keys.sort_unstable();
-    let crowded: Vec<u64> = keys
-        .chunk_by(|a, b| a == b)
-        .filter(|run| run.len() > HEAP_TRIANGLES)
-        .map(|run| run[0])
-        .collect();
+    let crowded: Vec<u64> = keys.chunk_by(|a, b| a == b).filter(|run| run.len() > HEAP_TRIANGLES).map(|run| run[0]).collect();
     if crowded.is_empty() {
         return (bounds, Vec::new());
     }
@@ -142,30 +118,18 @@ fn gather_heaps(bounds: Vec<Bounds>) -> (Vec<Bounds>, Vec<Vec<Bounds>>) {
             Err(_) => single.push(bounds),
         }
     }
-    single.extend(
-        heaps
-            .iter()
-            .zip(HEAP..)
-            .map(|(heap, code)| Bounds::around(heap, code)),
-    );
+    single.extend(heaps.iter().zip(HEAP..).map(|(heap, code)| Bounds::around(heap, code)));
     (single, heaps)
 }
 
 /// The triangles that a box stands for.
 fn members(bounds: Bounds, heaps: &[Vec<Bounds>]) -> Vec<Bounds> {
-    if bounds.triangle & HEAP == 0 {
-        vec![bounds]
-    } else {
-        heaps[(bounds.triangle & !HEAP) as usize].clone()
-    }
+    if bounds.triangle & HEAP == 0 { vec![bounds] } else { heaps[(bounds.triangle & !HEAP) as usize].clone() }
 }
 
 fn bounds_of(vertices: &[[f32; 3]], corners: [u32; 3], index: usize) -> Option<Bounds> {
-    let mut bounds = Bounds {
-        min: [f32::INFINITY; 3],
-        max: [f32::NEG_INFINITY; 3],
-        triangle: u32::try_from(index).ok().filter(|&index| index < HEAP)?,
-    };
+    let mut bounds =
+        Bounds { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3], triangle: u32::try_from(index).ok().filter(|&index| index < HEAP)? };
     for corner in corners {
         let vertex = vertices.get(corner as usize)?;
         for (axis, &coordinate) in vertex.iter().enumerate() {
@@ -194,9 +158,7 @@ impl Builder<'_> {
             self.tree.depth = self.tree.depth.max(depth);
             if depth > FREE_DEPTH {
                 let mut inside = Vec::new();
-                primitives_below(binary, from, |index| {
-                    inside.extend(members(bounds[index as usize], heaps))
-                });
+                primitives_below(binary, from, |index| inside.extend(members(bounds[index as usize], heaps)));
                 self.fill_balanced(to, depth, &mut inside);
                 continue;
             }
@@ -206,15 +168,11 @@ impl Builder<'_> {
                 let code = if node.is_leaf() {
                     let first = node.first_index as usize;
                     let last = first + node.prim_count as usize;
-                    let inside = binary.primitive_indices[first..last]
-                        .iter()
-                        .map(|&index| bounds[index as usize]);
+                    let inside = binary.primitive_indices[first..last].iter().map(|&index| bounds[index as usize]);
                     if inside.clone().all(|bounds| bounds.triangle & HEAP == 0) {
                         self.push_packet(inside.map(|bounds| bounds.triangle))
                     } else {
-                        let mut inside = inside
-                            .flat_map(|bounds| members(bounds, heaps))
-                            .collect::<Vec<_>>();
+                        let mut inside = inside.flat_map(|bounds| members(bounds, heaps)).collect::<Vec<_>>();
                         let next = self.tree.nodes.len();
                         let code = self.push_node();
                         self.fill_balanced(next, depth + 1, &mut inside);
@@ -235,10 +193,8 @@ impl Builder<'_> {
         self.tree.depth = self.tree.depth.max(depth);
         let mut parts = vec![inside];
         while parts.len() < 8 {
-            let Some(widest) = (0..parts.len())
-                .rev()
-                .max_by_key(|&part| parts[part].len())
-                .filter(|&part| parts[part].len() > LEAF_TRIANGLES)
+            let Some(widest) =
+                (0..parts.len()).rev().max_by_key(|&part| parts[part].len()).filter(|&part| parts[part].len() > LEAF_TRIANGLES)
             else {
                 break;
             };
@@ -246,11 +202,7 @@ impl Builder<'_> {
             parts.push(low);
             parts.push(high);
         }
-        for (lane, part) in parts
-            .into_iter()
-            .filter(|part| !part.is_empty())
-            .enumerate()
-        {
+        for (lane, part) in parts.into_iter().filter(|part| !part.is_empty()).enumerate() {
             let Bounds { min, max, .. } = Bounds::around(part, 0);
             let code = if part.len() <= LEAF_TRIANGLES {
                 self.push_packet(part.iter().map(|bounds| bounds.triangle))
@@ -272,8 +224,7 @@ impl Builder<'_> {
     fn push_packet(&mut self, inside: impl Iterator<Item = u32>) -> u32 {
         let mut packet = Packet::EMPTY;
         for (lane, triangle) in inside.take(LEAF_TRIANGLES).enumerate() {
-            let corners =
-                self.triangles[triangle as usize].map(|corner| self.vertices[corner as usize]);
+            let corners = self.triangles[triangle as usize].map(|corner| self.vertices[corner as usize]);
             packet.set(lane, corners, triangle);
         }
         self.tree.packets.push(packet);
@@ -283,12 +234,7 @@ impl Builder<'_> {
 
 /// Up to eight descendants of an inner node: the inner one with the largest area is replaced by its two children while there is room.
 fn open(binary: &Bvh2, from: usize) -> Vec<usize> {
-    let pair = |node: usize| {
-        [
-            binary.nodes[node].first_index as usize,
-            binary.nodes[node].first_index as usize + 1,
-        ]
-    };
+    let pair = |node: usize| [binary.nodes[node].first_index as usize, binary.nodes[node].first_index as usize + 1];
     if binary.nodes[from].is_leaf() {
         return vec![from];
     }
@@ -313,9 +259,7 @@ fn primitives_below(binary: &Bvh2, from: usize, mut visit: impl FnMut(u32)) {
         let node = &binary.nodes[index];
         let first = node.first_index as usize;
         if node.is_leaf() {
-            binary.primitive_indices[first..first + node.prim_count as usize]
-                .iter()
-                .for_each(|&primitive| visit(primitive));
+            binary.primitive_indices[first..first + node.prim_count as usize].iter().for_each(|&primitive| visit(primitive));
         } else {
             stack.extend([first, first + 1]);
         }
@@ -326,28 +270,14 @@ fn primitives_below(binary: &Bvh2, from: usize, mut visit: impl FnMut(u32)) {
 fn halve(inside: &mut [Bounds]) -> (&mut [Bounds], &mut [Bounds]) {
     let centre = |bounds: &Bounds, axis: usize| bounds.min[axis] + bounds.max[axis];
     let extent = |axis: usize| {
-        let (low, high) =
-            inside
-                .iter()
-                .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), bounds| {
-                    (
-                        low.min(centre(bounds, axis)),
-                        high.max(centre(bounds, axis)),
-                    )
-                });
+        let (low, high) = inside.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), bounds| {
+            (low.min(centre(bounds, axis)), high.max(centre(bounds, axis)))
+        });
         high - low
     };
-    let axis = (0..3)
-        .max_by(|&a, &b| extent(a).total_cmp(&extent(b)))
-        .unwrap_or(0);
+    let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
     // A multiple of the leaf's size in the lower half keeps the leaves full.
-    let middle = (inside.len() / 2)
-        .next_multiple_of(LEAF_TRIANGLES)
-        .min(inside.len() - 1);
-    inside.select_nth_unstable_by(middle, |a, b| {
-        centre(a, axis)
-            .total_cmp(&centre(b, axis))
-            .then(a.triangle.cmp(&b.triangle))
-    });
+    let middle = (inside.len() / 2).next_multiple_of(LEAF_TRIANGLES).min(inside.len() - 1);
+    inside.select_nth_unstable_by(middle, |a, b| centre(a, axis).total_cmp(&centre(b, axis)).then(a.triangle.cmp(&b.triangle)));
     inside.split_at_mut(middle)
 }

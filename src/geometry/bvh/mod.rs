@@ -68,13 +68,7 @@ impl Bvh {
     /// (whose areas would overflow) is never hit; `mesh::Mesh` rejects or rescales such input.
     pub fn build(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Bvh {
         let tree = build::build(vertices, triangles);
-        Bvh {
-            nodes: tree.nodes,
-            packets: tree.packets,
-            triangle_count: tree.triangle_count,
-            depth: tree.depth,
-            avx2: avx2::Avx2::detect(),
-        }
+        Bvh { nodes: tree.nodes, packets: tree.packets, triangle_count: tree.triangle_count, depth: tree.depth, avx2: avx2::Avx2::detect() }
     }
 
     /// The same tree, searched with portable arithmetic whatever the processor offers. The answers do not differ.
@@ -113,11 +107,7 @@ impl Bvh {
                 }
             } else {
                 let node = &self.nodes[child as usize];
-                stack.extend(
-                    (0..8)
-                        .filter(|&lane| node.support(lane, normal) > offset)
-                        .map(|lane| node.child[lane]),
-                );
+                stack.extend((0..8).filter(|&lane| node.support(lane, normal) > offset).map(|lane| node.child[lane]));
             }
         }
         false
@@ -149,10 +139,6 @@ impl Bvh {
     }
 
     fn packet(&self, child: u32) -> Option<&Packet> {
-        if child & node::LEAF == 0 {
-            None
-        } else {
-            self.packets.get((child & !node::LEAF) as usize)
-        }
+        if child & node::LEAF == 0 { None } else { self.packets.get((child & !node::LEAF) as usize) }
     }
 }

@@ -43,12 +43,7 @@ impl Node {
         if self.bounds[0][lane] > self.bounds[3][lane] {
             return f64::NEG_INFINITY;
         }
-        (0..3)
-            .map(|axis| {
-                normal[axis]
-                    * f64::from(self.bounds[if normal[axis] > 0.0 { axis + 3 } else { axis }][lane])
-            })
-            .sum()
+        (0..3).map(|axis| normal[axis] * f64::from(self.bounds[if normal[axis] > 0.0 { axis + 3 } else { axis }][lane])).sum()
     }
 }
 
@@ -64,10 +59,7 @@ pub(super) struct Packet {
 
 impl Packet {
     /// A packet without triangles.
-    pub(super) const EMPTY: Packet = Packet {
-        vertex: [[[f32::NAN; 8]; 3]; 3],
-        triangle: [u32::MAX; 8],
-    };
+    pub(super) const EMPTY: Packet = Packet { vertex: [[[f32::NAN; 8]; 3]; 3], triangle: [u32::MAX; 8] };
 
     /// Puts a triangle into a lane.
     pub(super) fn set(&mut self, lane: usize, corners: [[f32; 3]; 3], triangle: u32) {
@@ -81,13 +73,8 @@ impl Packet {
 
     /// Whether a vertex of a triangle has `normal . v > offset`.
     pub(super) fn any_vertex_beyond(&self, normal: [f64; 3], offset: f64) -> bool {
-        self.vertex.iter().any(|rows| {
-            (0..8).any(|lane| {
-                (0..3)
-                    .map(|axis| normal[axis] * f64::from(rows[axis][lane]))
-                    .sum::<f64>()
-                    > offset
-            })
-        })
+        self.vertex
+            .iter()
+            .any(|rows| (0..8).any(|lane| (0..3).map(|axis| normal[axis] * f64::from(rows[axis][lane])).sum::<f64>() > offset))
     }
 }

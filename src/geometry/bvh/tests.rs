@@ -8,43 +8,11 @@ use std::f32::consts::TAU;
 /// An icosahedron whose triangles are split in four `level` times and pushed to the unit sphere, in double precision.
 pub(crate) fn icosphere(level: usize) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let g = (1.0 + 5.0_f64.sqrt()) / 2.0;
-    let mut points = vec![
-        [-1.0, g, 0.0],
-        [1.0, g, 0.0],
-        [-1.0, -g, 0.0],
-        [1.0, -g, 0.0],
-    ];
-    points.extend([
-        [0.0, -1.0, g],
-        [0.0, 1.0, g],
-        [0.0, -1.0, -g],
-        [0.0, 1.0, -g],
-    ]);
-    points.extend([
-        [g, 0.0, -1.0],
-        [g, 0.0, 1.0],
-        [-g, 0.0, -1.0],
-        [-g, 0.0, 1.0],
-    ]);
-    let mut triangles: Vec<[u32; 3]> = vec![
-        [0, 11, 5],
-        [0, 5, 1],
-        [0, 1, 7],
-        [0, 7, 10],
-        [0, 10, 11],
-        [1, 5, 9],
-        [5, 11, 4],
-    ];
-    triangles.extend([
-        [11, 10, 2],
-        [10, 7, 6],
-        [7, 1, 8],
-        [3, 9, 4],
-        [3, 4, 2],
-        [3, 2, 6],
-        [3, 6, 8],
-        [3, 8, 9],
-    ]);
+    let mut points = vec![[-1.0, g, 0.0], [1.0, g, 0.0], [-1.0, -g, 0.0], [1.0, -g, 0.0]];
+    points.extend([[0.0, -1.0, g], [0.0, 1.0, g], [0.0, -1.0, -g], [0.0, 1.0, -g]]);
+    points.extend([[g, 0.0, -1.0], [g, 0.0, 1.0], [-g, 0.0, -1.0], [-g, 0.0, 1.0]]);
+    let mut triangles: Vec<[u32; 3]> = vec![[0, 11, 5], [0, 5, 1], [0, 1, 7], [0, 7, 10], [0, 10, 11], [1, 5, 9], [5, 11, 4]];
+    triangles.extend([[11, 10, 2], [10, 7, 6], [7, 1, 8], [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9]]);
     triangles.extend([[4, 9, 5], [2, 4, 11], [6, 2, 10], [8, 6, 7], [9, 8, 1]]);
     for _ in 0..level {
         let mut middles = BTreeMap::new();
@@ -74,8 +42,7 @@ pub(crate) fn icosphere(level: usize) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
 pub(crate) fn bumpy_icosphere(level: usize) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let (mut points, triangles) = icosphere(level);
     for p in &mut points {
-        let r =
-            1.0 + 0.1 * (11.0 * p[0] + 2.0).sin() * (13.0 * p[1]).sin() * (9.0 * p[2] + 1.0).sin();
+        let r = 1.0 + 0.1 * (11.0 * p[0] + 2.0).sin() * (13.0 * p[1]).sin() * (9.0 * p[2] + 1.0).sin();
         *p = p.map(|x| r * x);
     }
     (points, triangles)
@@ -102,13 +69,7 @@ impl Stream {
 }
 
 fn ray(origin: [f32; 3], direction: [f32; 3]) -> Ray {
-    Ray {
-        origin,
-        direction,
-        t_min: 0.0,
-        t_max: f32::INFINITY,
-        skip: [NO_TRIANGLE; 2],
-    }
+    Ray { origin, direction, t_min: 0.0, t_max: f32::INFINITY, skip: [NO_TRIANGLE; 2] }
 }
 
 fn towards(from: [f32; 3], to: [f32; 3]) -> Ray {
@@ -119,30 +80,20 @@ fn towards(from: [f32; 3], to: [f32; 3]) -> Ray {
 fn no_ray_escapes_through_a_vertex_or_an_edge_of_a_closed_mesh() {
     let (points, triangles) = bumpy_icosphere(4);
     for (radius, shift) in [(1.0, 0.0), (1.0, 1e4), (1e-4, 0.0), (1e-9, 0.0), (1e9, 0.0)] {
-        let vertices: Vec<[f32; 3]> = points
-            .iter()
-            .map(|p| p.map(|x| (x * radius + shift) as f32))
-            .collect();
+        let vertices: Vec<[f32; 3]> = points.iter().map(|p| p.map(|x| (x * radius + shift) as f32)).collect();
         let bvh = Bvh::build(&vertices, &triangles);
         let mut stream = Stream(1);
         for i in 0..100_000_usize {
             let corners = triangles[i % triangles.len()].map(|k| vertices[k as usize]);
             let share = stream.next() as f32;
-            let inside = stream
-                .direction()
-                .map(|x| (0.3 * stream.next() * radius * x + shift) as f32);
+            let inside = stream.direction().map(|x| (0.3 * stream.next() * radius * x + shift) as f32);
             let target = match i % 3 {
                 0 => corners[0],
                 1 => std::array::from_fn(|k| 0.5 * (corners[0][k] + corners[1][k])),
-                _ => {
-                    std::array::from_fn(|k| corners[1][k] + share * (corners[2][k] - corners[1][k]))
-                }
+                _ => std::array::from_fn(|k| corners[1][k] + share * (corners[2][k] - corners[1][k])),
             };
             let ray = towards(inside, target);
-            assert!(
-                bvh.closest(&ray).is_some(),
-                "radius {radius}, shift {shift}: {ray:?} escapes"
-            );
+            assert!(bvh.closest(&ray).is_some(), "radius {radius}, shift {shift}: {ray:?} escapes");
             assert!(bvh.blocked(&ray));
         }
     }
@@ -159,19 +110,12 @@ fn crossing(ray: &Ray, corners: [[f32; 3]; 3]) -> (f64, [f64; 3], f64) {
     let weights = volume.map(|v| v / sum);
     let normal = (b - a).cross(c - a);
     let point = a * weights[0] + b * weights[1] + c * weights[2];
-    (
-        point.dot(d) / d.length_squared(),
-        weights,
-        normal.dot(d) / (normal.length() * d.length()),
-    )
+    (point.dot(d) / d.length_squared(), weights, normal.dot(d) / (normal.length() * d.length()))
 }
 
 /// The nearest triangle that the ray crosses well inside and not at grazing incidence, by trying all.
 fn clear_hit(ray: &Ray, vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> f64 {
-    let all = triangles
-        .iter()
-        .enumerate()
-        .map(|(i, t)| (i as u32, crossing(ray, t.map(|k| vertices[k as usize]))));
+    let all = triangles.iter().enumerate().map(|(i, t)| (i as u32, crossing(ray, t.map(|k| vertices[k as usize]))));
     all.filter(|(i, (t, weights, cosine))| {
         weights.iter().all(|w| *w > 1e-3)
             && cosine.abs() > 1e-3
@@ -255,9 +199,7 @@ fn both_versions_return_the_same_bits_on_a_large_mesh() {
     for _ in 0..20_000 {
         let origin = stream.direction().map(|x| (1.5 * x) as f32);
         let ray = ray(origin, stream.direction().map(|x| x as f32));
-        let bits = |hit: Option<Hit>| {
-            hit.map(|h| (h.t.to_bits(), h.triangle, h.barycentric.map(f32::to_bits)))
-        };
+        let bits = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), h.triangle, h.barycentric.map(f32::to_bits)));
         assert_eq!(bits(bvh.closest(&ray)), bits(portable.closest(&ray)));
         assert_eq!(bvh.blocked(&ray), portable.blocked(&ray));
     }
@@ -268,12 +210,7 @@ fn every_triangle_is_in_exactly_one_leaf() {
     let (points, triangles) = bumpy_icosphere(3);
     let vertices: Vec<[f32; 3]> = points.iter().map(|p| p.map(|x| x as f32)).collect();
     let bvh = Bvh::build(&vertices, &triangles);
-    let mut found: Vec<u32> = bvh
-        .packets
-        .iter()
-        .flat_map(|p| p.triangle)
-        .filter(|&t| t != NO_TRIANGLE)
-        .collect();
+    let mut found: Vec<u32> = bvh.packets.iter().flat_map(|p| p.triangle).filter(|&t| t != NO_TRIANGLE).collect();
     found.sort_unstable();
     assert_eq!(found, (0..triangles.len() as u32).collect::<Vec<_>>());
     assert_eq!(bvh.triangle_count(), triangles.len());
@@ -284,11 +221,7 @@ fn coincident_triangles_make_a_tree_of_bounded_depth() {
     let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     for count in [1, 8, 9, 5_000, 70_000] {
         let bvh = Bvh::build(&vertices, &vec![[0, 1, 2]; count]);
-        assert!(
-            bvh.depth() <= build::DEPTH_LIMIT,
-            "{count}: {}",
-            bvh.depth()
-        );
+        assert!(bvh.depth() <= build::DEPTH_LIMIT, "{count}: {}", bvh.depth());
         assert_eq!(bvh.triangle_count(), count);
         let hit = bvh.closest(&ray([0.2, 0.2, 1.0], [0.0, 0.0, -1.0]));
         assert_eq!(hit.map(|h| h.t), Some(1.0));
@@ -299,12 +232,8 @@ fn coincident_triangles_make_a_tree_of_bounded_depth() {
 #[test]
 fn a_ribbon_of_equal_cells_is_hit_cell_by_cell() {
     let cells = 20_000_u32;
-    let vertices: Vec<[f32; 3]> = (0..=cells)
-        .flat_map(|i| [[i as f32, 0.0, 0.0], [i as f32, 1.0, 0.0]])
-        .collect();
-    let triangles: Vec<[u32; 3]> = (0..cells)
-        .flat_map(|i| [[2 * i, 2 * i + 2, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 1]])
-        .collect();
+    let vertices: Vec<[f32; 3]> = (0..=cells).flat_map(|i| [[i as f32, 0.0, 0.0], [i as f32, 1.0, 0.0]]).collect();
+    let triangles: Vec<[u32; 3]> = (0..cells).flat_map(|i| [[2 * i, 2 * i + 2, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 1]]).collect();
     let bvh = Bvh::build(&vertices, &triangles);
     assert!(bvh.depth() <= 10, "{}", bvh.depth());
     for i in (0..cells).step_by(37) {
@@ -331,27 +260,12 @@ fn a_row_of_ever_larger_triangles_makes_a_tree_of_bounded_depth() {
 #[test]
 fn a_ray_along_an_axis_hits_a_wall_edge_on_its_boxes() {
     // Boxes without thickness, planes through the origin of the ray: 0 * inf in the slabs.
-    let vertices = [
-        [0.0, 0.0, 1.0],
-        [1.0, 0.0, 1.0],
-        [1.0, 1.0, 1.0],
-        [0.0, 1.0, 1.0],
-    ];
+    let vertices = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]];
     let bvh = Bvh::build(&vertices, &[[0, 1, 2], [0, 2, 3]]);
     for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.5, 0.5), (0.0, 1.0), (1.0, 0.25)] {
         for zero in [0.0, -0.0] {
-            assert_eq!(
-                bvh.closest(&ray([x, y, 0.0], [zero, -zero, 1.0]))
-                    .map(|h| h.t),
-                Some(1.0),
-                "{x} {y}"
-            );
-            assert_eq!(
-                bvh.closest(&ray([x, y, 2.0], [zero, zero, -0.5]))
-                    .map(|h| h.t),
-                Some(2.0),
-                "{x} {y}"
-            );
+            assert_eq!(bvh.closest(&ray([x, y, 0.0], [zero, -zero, 1.0])).map(|h| h.t), Some(1.0), "{x} {y}");
+            assert_eq!(bvh.closest(&ray([x, y, 2.0], [zero, zero, -0.5])).map(|h| h.t), Some(2.0), "{x} {y}");
         }
     }
 }
@@ -376,10 +290,7 @@ fn slivers_of_aspect_a_million_are_hit_and_leak_nothing() {
 fn nothing_is_hit_in_an_empty_tree_or_by_a_ray_without_direction() {
     let empty = Bvh::build(&[], &[]);
     assert_eq!(empty.closest(&ray([0.0; 3], [0.0, 0.0, 1.0])), None);
-    let one = Bvh::build(
-        &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        &[[0, 1, 2]],
-    );
+    let one = Bvh::build(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2]]);
     for direction in [[0.0; 3], [f32::NAN, 0.0, 1.0], [0.0, 0.0, f32::INFINITY]] {
         assert!(!one.blocked(&ray([0.2, 0.2, -1.0], direction)));
     }

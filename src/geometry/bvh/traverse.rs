@@ -79,11 +79,7 @@ impl Prepared {
             near,
             far,
             axis: [kx, ky, kz],
-            shear: [
-                direction[kx] / direction[kz],
-                direction[ky] / direction[kz],
-                1.0 / direction[kz],
-            ],
+            shear: [direction[kx] / direction[kz], direction[ky] / direction[kz], 1.0 / direction[kz]],
             // Positive zero: entry distances are compared by their bits.
             t_min: if ray.t_min > 0.0 { ray.t_min } else { 0.0 },
             t_max: ray.t_max,
@@ -99,10 +95,7 @@ pub(super) struct Crossing {
 }
 
 impl Crossing {
-    const ZERO: Crossing = Crossing {
-        t: [0.0; 8],
-        edge: [[0.0; 8]; 3],
-    };
+    const ZERO: Crossing = Crossing { t: [0.0; 8], edge: [[0.0; 8]; 3] };
 }
 
 /// Arithmetic on eight lanes.
@@ -110,13 +103,7 @@ pub(super) trait Kernel: Copy {
     /// Bits of the boxes that the ray enters before `t_best`; their entry distances go to `entry`.
     fn boxes(self, node: &Node, ray: &Prepared, t_best: f32, entry: &mut [f32; 8]) -> u32;
     /// Bits of the triangles that the ray crosses between its `t_min` and `t_best`; if there are any, `crossing` is filled.
-    fn triangles(
-        self,
-        packet: &Packet,
-        ray: &Prepared,
-        t_best: f32,
-        crossing: &mut Crossing,
-    ) -> u32;
+    fn triangles(self, packet: &Packet, ray: &Prepared, t_best: f32, crossing: &mut Crossing) -> u32;
     /// Says that a child will be needed soon.
     fn prefetch(self, bvh: &Bvh, child: u32);
 }
@@ -134,17 +121,9 @@ pub(super) fn closest<K: Kernel>(kernel: K, bvh: &Bvh, ray: &Prepared) -> Option
             let t = crossing.t[lane];
             if t < *t_best {
                 *t_best = t;
-                let edge = [
-                    crossing.edge[0][lane],
-                    crossing.edge[1][lane],
-                    crossing.edge[2][lane],
-                ];
+                let edge = [crossing.edge[0][lane], crossing.edge[1][lane], crossing.edge[2][lane]];
                 let sum = edge[0] + edge[1] + edge[2];
-                best = Some(Hit {
-                    t,
-                    triangle: packet.triangle[lane],
-                    barycentric: edge.map(|e| e / sum),
-                });
+                best = Some(Hit { t, triangle: packet.triangle[lane], barycentric: edge.map(|e| e / sum) });
             }
         }
         false
@@ -157,18 +136,12 @@ pub(super) fn closest<K: Kernel>(kernel: K, bvh: &Bvh, ray: &Prepared) -> Option
 #[inline(always)]
 pub(super) fn blocked<K: Kernel>(kernel: K, bvh: &Bvh, ray: &Prepared) -> bool {
     let mut crossing = Crossing::ZERO;
-    let visit =
-        |packet: &Packet, _: &mut f32| kernel.triangles(packet, ray, ray.t_max, &mut crossing) != 0;
+    let visit = |packet: &Packet, _: &mut f32| kernel.triangles(packet, ray, ray.t_max, &mut crossing) != 0;
     search::<K, false>(kernel, bvh, ray, visit)
 }
 
 #[inline(always)]
-fn search<K: Kernel, const ORDERED: bool>(
-    kernel: K,
-    bvh: &Bvh,
-    ray: &Prepared,
-    visit: impl FnMut(&Packet, &mut f32) -> bool,
-) -> bool {
+fn search<K: Kernel, const ORDERED: bool>(kernel: K, bvh: &Bvh, ray: &Prepared, visit: impl FnMut(&Packet, &mut f32) -> bool) -> bool {
     if 7 * bvh.depth < SHORT_STACK {
         walk::<K, ORDERED, SHORT_STACK>(kernel, bvh, ray, visit)
     } else {
@@ -213,11 +186,7 @@ fn walk<K: Kernel, const ORDERED: bool, const STACK: usize>(
                 }
                 let second = next(&mut lanes);
                 if ORDERED {
-                    let (mut near, far) = if first < second {
-                        (first, second)
-                    } else {
-                        (second, first)
-                    };
+                    let (mut near, far) = if first < second { (first, second) } else { (second, first) };
                     let base = height;
                     stack[height] = far;
                     height += 1;
@@ -287,27 +256,16 @@ impl Kernel for Portable {
         for i in (0..3).rev() {
             let (enter, leave) = (&node.bounds[ray.near[i]], &node.bounds[ray.far[i]]);
             for lane in 0..8 {
-                near[lane] = max(
-                    (enter[lane] - ray.origin[i]) * ray.near_scale[i],
-                    near[lane],
-                );
+                near[lane] = max((enter[lane] - ray.origin[i]) * ray.near_scale[i], near[lane]);
                 far[lane] = min((leave[lane] - ray.origin[i]) * ray.far_scale[i], far[lane]);
             }
         }
         *entry = near;
-        (0..8).fold(0, |bits, lane| {
-            bits | u32::from(near[lane] <= far[lane]) << lane
-        })
+        (0..8).fold(0, |bits, lane| bits | u32::from(near[lane] <= far[lane]) << lane)
     }
 
     #[inline(always)]
-    fn triangles(
-        self,
-        packet: &Packet,
-        ray: &Prepared,
-        t_best: f32,
-        crossing: &mut Crossing,
-    ) -> u32 {
+    fn triangles(self, packet: &Packet, ray: &Prepared, t_best: f32, crossing: &mut Crossing) -> u32 {
         let [kx, ky, kz] = ray.axis;
         let [sx, sy, sz] = ray.shear;
         let mut sheared = [[[0.0_f32; 8]; 3]; 3];
@@ -328,8 +286,7 @@ impl Kernel for Portable {
             let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
             let determinant = (u + v) + w;
             let t = sz * ((u * a[2][lane] + v * b[2][lane]) + w * c[2][lane]) / determinant;
-            let counts =
-                packet.triangle[lane] != ray.skip[0] && packet.triangle[lane] != ray.skip[1];
+            let counts = packet.triangle[lane] != ray.skip[0] && packet.triangle[lane] != ray.skip[1];
             lanes |= u32::from(inside && t > ray.t_min && t < t_best && counts) << lane;
             crossing.t[lane] = t;
             crossing.edge[0][lane] = u;

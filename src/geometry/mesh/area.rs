@@ -14,23 +14,16 @@ impl Mesh {
 
     /// Area of each triangle in square metres.
     pub fn triangle_areas_m2(&self) -> impl ExactSizeIterator<Item = f64> {
-        (0..self.triangles.len()).map(|i| {
-            0.5 * super::double_area(&self.vertices, &self.triangles[i]) * self.size_m * self.size_m
-        })
+        (0..self.triangles.len()).map(|i| 0.5 * super::double_area(&self.vertices, &self.triangles[i]) * self.size_m * self.size_m)
     }
 
     /// A point with density 1 / area from three numbers in 0..1: the triangle, the point in metres, the unit normal.
     pub fn sample_by_area(&self, u: [f64; 3]) -> (u32, DVec3, DVec3) {
         let wanted = u[0] * self.local_area();
-        let triangle = self
-            .cumulative_area
-            .partition_point(|&sum| sum <= wanted)
-            .min(self.triangles.len() - 1);
+        let triangle = self.cumulative_area.partition_point(|&sum| sum <= wanted).min(self.triangles.len() - 1);
         let corners = self.triangles[triangle].map(|index| super::local(&self.vertices, index));
         let root = u[1].sqrt();
-        let point = corners[0] * (1.0 - root)
-            + corners[1] * ((1.0 - u[2]) * root)
-            + corners[2] * (u[2] * root);
+        let point = corners[0] * (1.0 - root) + corners[1] * ((1.0 - u[2]) * root) + corners[2] * (u[2] * root);
         (triangle as u32, self.world(point), unit_normal(corners))
     }
 
@@ -45,23 +38,13 @@ impl Mesh {
         let [a, b, c] = self.local_triangle(triangle)?;
         let p = (point - self.centre) / self.size_m;
         let normal = (b - a).cross(c - a);
-        let weight = |q: DVec3, r: DVec3| {
-            ((q - p).cross(r - p).dot(normal) / normal.length_squared()).clamp(0.0, 1.0)
-        };
+        let weight = |q: DVec3, r: DVec3| ((q - p).cross(r - p).dot(normal) / normal.length_squared()).clamp(0.0, 1.0);
         let (b1, b2) = (weight(c, a), weight(a, b));
         let root = b1 + b2;
         let index = triangle as usize;
-        let before = if index == 0 {
-            0.0
-        } else {
-            self.cumulative_area[index - 1]
-        };
+        let before = if index == 0 { 0.0 } else { self.cumulative_area[index - 1] };
         let u0 = 0.5 * (before + self.cumulative_area[index]) / self.local_area();
-        Some([
-            u0,
-            (root * root).min(1.0),
-            if root > 0.0 { b2 / root } else { 0.0 },
-        ])
+        Some([u0, (root * root).min(1.0), if root > 0.0 { b2 / root } else { 0.0 }])
     }
 
     fn local_area(&self) -> f64 {
@@ -75,11 +58,7 @@ pub(super) fn cumulative(areas: impl Iterator<Item = f64>) -> Vec<f64> {
     areas
         .map(|area| {
             let next = sum + area;
-            lost += if sum >= area {
-                (sum - next) + area
-            } else {
-                (area - next) + sum
-            };
+            lost += if sum >= area { (sum - next) + area } else { (area - next) + sum };
             sum = next;
             sum + lost
         })

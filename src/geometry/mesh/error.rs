@@ -23,9 +23,7 @@ pub enum MeshError {
         vertices: usize,
     },
     /// The mesh is so small or so large that its areas leave the range of double precision.
-    #[error(
-        "the largest extent of the mesh is {extent_m:e} m; it must be between 1e-140 m and 1e140 m"
-    )]
+    #[error("the largest extent of the mesh is {extent_m:e} m; it must be between 1e-140 m and 1e140 m")]
     ExtentOutOfRange {
         /// Largest edge of the bounding box in metres.
         extent_m: f64,

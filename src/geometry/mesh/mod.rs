@@ -55,12 +55,7 @@ impl Mesh {
     pub fn new(points: &[DVec3], mut triangles: Vec<[u32; 3]>) -> Result<Mesh, MeshError> {
         check(points, &triangles)?;
         let count = triangles.len();
-        let corners = || {
-            triangles
-                .iter()
-                .flatten()
-                .map(|&index| points[index as usize])
-        };
+        let corners = || triangles.iter().flatten().map(|&index| points[index as usize]);
         let min = corners().fold(DVec3::INFINITY, DVec3::min);
         let max = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         // Halves first: the difference of two finite numbers may overflow.
@@ -69,48 +64,21 @@ impl Mesh {
             return Err(MeshError::AllDegenerate { triangles: count });
         }
         if !EXTENT_RANGE_M.contains(&(half_extent * 2.0)) {
-            return Err(MeshError::ExtentOutOfRange {
-                extent_m: half_extent * 2.0,
-            });
+            return Err(MeshError::ExtentOutOfRange { extent_m: half_extent * 2.0 });
         }
         let centre = min * 0.5 + max * 0.5;
         let size_m = power_of_two_above(half_extent);
-        let vertices: Vec<[f32; 3]> = points
-            .iter()
-            .map(|&p| ((p - centre) / size_m).as_vec3().to_array())
-            .collect();
+        let vertices: Vec<[f32; 3]> = points.iter().map(|&p| ((p - centre) / size_m).as_vec3().to_array()).collect();
         triangles.retain(|corners| double_area(&vertices, corners) > 0.0);
         if triangles.is_empty() {
             return Err(MeshError::AllDegenerate { triangles: count });
         }
         triangles.shrink_to_fit();
-        let corners = || {
-            triangles
-                .iter()
-                .flatten()
-                .map(|&index| local(&vertices, index))
-        };
-        let (local_min, local_max) = (
-            corners().fold(DVec3::INFINITY, DVec3::min),
-            corners().fold(DVec3::NEG_INFINITY, DVec3::max),
-        );
+        let corners = || triangles.iter().flatten().map(|&index| local(&vertices, index));
+        let (local_min, local_max) = (corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max));
         let bvh = Bvh::build(&vertices, &triangles);
-        let cumulative_area = area::cumulative(
-            triangles
-                .iter()
-                .map(|corners| 0.5 * double_area(&vertices, corners)),
-        );
-        Ok(Mesh {
-            centre,
-            size_m,
-            degenerate: count - triangles.len(),
-            vertices,
-            triangles,
-            cumulative_area,
-            local_min,
-            local_max,
-            bvh,
-        })
+        let cumulative_area = area::cumulative(triangles.iter().map(|corners| 0.5 * double_area(&vertices, corners)));
+        Ok(Mesh { centre, size_m, degenerate: count - triangles.len(), vertices, triangles, cumulative_area, local_min, local_max, bvh })
     }
 
     /// World coordinates of a triangle's vertices in metres, as they were rounded; `None` if there is no such triangle.
@@ -171,23 +139,14 @@ fn check(points: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
         return Err(MeshError::NoTriangles);
     }
     if triangles.len() > i32::MAX as usize {
-        return Err(MeshError::TooManyTriangles {
-            triangles: triangles.len(),
-        });
+        return Err(MeshError::TooManyTriangles { triangles: triangles.len() });
     }
     if let Some(vertex) = points.iter().position(|p| !p.is_finite()) {
         return Err(MeshError::VertexNotFinite { vertex });
     }
     for (triangle, corners) in triangles.iter().enumerate() {
-        if let Some(&index) = corners
-            .iter()
-            .find(|&&index| index as usize >= points.len())
-        {
-            return Err(MeshError::IndexOutOfRange {
-                triangle,
-                index,
-                vertices: points.len(),
-            });
+        if let Some(&index) = corners.iter().find(|&&index| index as usize >= points.len()) {
+            return Err(MeshError::IndexOutOfRange { triangle, index, vertices: points.len() });
         }
     }
     Ok(())
@@ -215,9 +174,5 @@ fn unit_normal(corners: [DVec3; 3]) -> DVec3 {
 /// The smallest power of two that is not below a normal positive number; dividing by it is exact.
 fn power_of_two_above(x: f64) -> f64 {
     let exponent_only = f64::from_bits(x.to_bits() & (0x7ff << 52));
-    if exponent_only == x {
-        x
-    } else {
-        exponent_only * 2.0
-    }
+    if exponent_only == x { x } else { exponent_only * 2.0 }
 }

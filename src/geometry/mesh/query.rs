@@ -44,22 +44,10 @@ impl Mesh {
     ///
     /// `direction` is a unit vector; `t_max` may be infinite. `leaving` is the triangle from which the ray starts, with `origin` on it.
     /// Nothing is met by a ray that is not finite.
-    pub fn closest(
-        &self,
-        origin: DVec3,
-        direction: DVec3,
-        t_max: f64,
-        leaving: Option<u32>,
-    ) -> Option<MeshHit> {
+    pub fn closest(&self, origin: DVec3, direction: DVec3, t_max: f64, leaving: Option<u32>) -> Option<MeshHit> {
         let from = (origin - self.centre) / self.size_m;
         let (start, nudge) = self.left(from, direction, leaving);
-        let (t_start, ray) = self.ray(
-            start,
-            nudge,
-            direction,
-            t_max / self.size_m,
-            [leaving.unwrap_or(NO_TRIANGLE), NO_TRIANGLE],
-        )?;
+        let (t_start, ray) = self.ray(start, nudge, direction, t_max / self.size_m, [leaving.unwrap_or(NO_TRIANGLE), NO_TRIANGLE])?;
         let hit = self.bvh.closest(&ray)?;
         Some(self.refine(from, from + direction * t_start, direction, &hit))
     }
@@ -68,20 +56,10 @@ impl Mesh {
     ///
     /// `leaving` and `arriving` are the triangles on which the way starts and ends, if any; they do not block, nor does what touches them
     /// there. Without `arriving` the last 1e-6 of the way is not searched.
-    pub fn blocked(
-        &self,
-        origin: DVec3,
-        direction: DVec3,
-        t_max: f64,
-        leaving: Option<u32>,
-        arriving: Option<u32>,
-    ) -> bool {
+    pub fn blocked(&self, origin: DVec3, direction: DVec3, t_max: f64, leaving: Option<u32>, arriving: Option<u32>) -> bool {
         let from = (origin - self.centre) / self.size_m;
         let (start, nudge) = self.left(from, direction, leaving);
-        let skip = [
-            leaving.unwrap_or(NO_TRIANGLE),
-            arriving.unwrap_or(NO_TRIANGLE),
-        ];
+        let skip = [leaving.unwrap_or(NO_TRIANGLE), arriving.unwrap_or(NO_TRIANGLE)];
         let length = t_max / self.size_m;
         let ray = match arriving {
             // Searched from the end, which is at the mesh, whereas the start may be far away.
@@ -105,79 +83,42 @@ impl Mesh {
             return (from, DVec3::ZERO);
         };
         let normal = unit_normal(corners);
-        let error = corners
-            .iter()
-            .fold(DVec3::ZERO, |largest, v| largest.max(v.abs()))
-            * GAMMA_7_F32;
-        let shift = normal
-            * normal.abs().dot(error)
-            * if normal.dot(direction) < 0.0 {
-                -1.0
-            } else {
-                1.0
-            };
+        let error = corners.iter().fold(DVec3::ZERO, |largest, v| largest.max(v.abs())) * GAMMA_7_F32;
+        let shift = normal * normal.abs().dot(error) * if normal.dot(direction) < 0.0 { -1.0 } else { 1.0 };
         // World coordinates far from the origin are coarse: back into the plane first.
         let in_plane = from - normal * normal.dot(from - corners[0]);
         (in_plane + shift, shift)
     }
 
     /// The ray in single precision, and how far along the way it starts; `None` if it passes the mesh's box.
-    fn ray(
-        &self,
-        from: DVec3,
-        nudge: DVec3,
-        direction: DVec3,
-        t_max: f64,
-        skip: [u32; 2],
-    ) -> Option<(f64, Ray)> {
+    fn ray(&self, from: DVec3, nudge: DVec3, direction: DVec3, t_max: f64, skip: [u32; 2]) -> Option<(f64, Ray)> {
         let inverse = direction.recip();
         let to_low = (self.local_min - DVec3::splat(BOX_MARGIN) - from) * inverse;
         let to_high = (self.local_max + DVec3::splat(BOX_MARGIN) - from) * inverse;
         // 0 * inf gives NaN, which these minima and maxima pass over: such an axis does not limit.
         let (near, far) = (to_low.to_array(), to_high.to_array());
-        let enter = near
-            .iter()
-            .zip(&far)
-            .fold(0.0, |t: f64, (a, b)| t.max(a.min(*b)));
-        let leave = near
-            .iter()
-            .zip(&far)
-            .fold(t_max, |t: f64, (a, b)| t.min(a.max(*b)));
+        let enter = near.iter().zip(&far).fold(0.0, |t: f64, (a, b)| t.max(a.min(*b)));
+        let leave = near.iter().zip(&far).fold(t_max, |t: f64, (a, b)| t.min(a.max(*b)));
         // Not "enter > leave": a NaN ends here too.
         if !(enter <= leave && direction.is_finite() && from.is_finite()) {
             return None;
         }
         let start = (from + direction * enter).as_vec3().to_array();
-        let away = if enter == 0.0 {
-            nudge.to_array()
-        } else {
-            [0.0; 3]
-        };
+        let away = if enter == 0.0 { nudge.to_array() } else { [0.0; 3] };
         let origin = std::array::from_fn(|i| match away[i] {
             shift if shift > 0.0 => start[i].next_up(),
             shift if shift < 0.0 => start[i].next_down(),
             _ => start[i],
         });
-        let ray = Ray {
-            origin,
-            direction: direction.as_vec3().to_array(),
-            t_min: 0.0,
-            t_max: (t_max - enter) as f32,
-            skip,
-        };
+        let ray = Ray { origin, direction: direction.as_vec3().to_array(), t_min: 0.0, t_max: (t_max - enter) as f32, skip };
         Some((enter, ray))
     }
 
     /// The hit in double precision; `near` is a point of the ray close to the mesh.
     fn refine(&self, from: DVec3, near: DVec3, direction: DVec3, hit: &Hit) -> MeshHit {
-        let corners =
-            self.triangles[hit.triangle as usize].map(|index| super::local(&self.vertices, index));
+        let corners = self.triangles[hit.triangle as usize].map(|index| super::local(&self.vertices, index));
         let weights = weights(near, direction, corners, hit.barycentric.map(f64::from));
-        let parts = [
-            corners[0] * weights[0],
-            corners[1] * weights[1],
-            corners[2] * weights[2],
-        ];
+        let parts = [corners[0] * weights[0], corners[1] * weights[1], corners[2] * weights[2]];
         let point = parts[0] + parts[1] + parts[2];
         let spread = parts[0].abs() + parts[1].abs() + parts[2].abs();
         let world = self.world(point);
@@ -200,11 +141,7 @@ impl Mesh {
 /// the search the ones nearer to the line are taken.
 fn weights(near: DVec3, direction: DVec3, corners: [DVec3; 3], searched: [f64; 3]) -> [f64; 3] {
     let [a, b, c] = corners.map(|corner| corner - near);
-    let volume = [
-        direction.dot(c.cross(b)),
-        direction.dot(a.cross(c)),
-        direction.dot(b.cross(a)),
-    ];
+    let volume = [direction.dot(c.cross(b)), direction.dot(a.cross(c)), direction.dot(b.cross(a))];
     let sum = volume[0] + volume[1] + volume[2];
     let exact = volume.map(|v| v / sum);
     if exact.iter().all(|w| *w >= 0.0) {
@@ -216,9 +153,5 @@ fn weights(near: DVec3, direction: DVec3, corners: [DVec3; 3], searched: [f64; 3
         clipped.map(|w| w / sum)
     });
     let distance = |w: [f64; 3]| (a * w[0] + b * w[1] + c * w[2]).cross(direction).length();
-    if distance(exact) <= distance(searched) {
-        exact
-    } else {
-        searched
-    }
+    if distance(exact) <= distance(searched) { exact } else { searched }
 }

@@ -5,19 +5,12 @@ use crate::geometry::bvh::tests::{Stream, bumpy_icosphere, icosphere};
 use proptest::prelude::*;
 
 fn mesh((points, triangles): (Vec<[f64; 3]>, Vec<[u32; 3]>), radius: f64, centre: DVec3) -> Mesh {
-    let points: Vec<DVec3> = points
-        .into_iter()
-        .map(|p| DVec3::from_array(p) * radius + centre)
-        .collect();
+    let points: Vec<DVec3> = points.into_iter().map(|p| DVec3::from_array(p) * radius + centre).collect();
     Mesh::new(&points, triangles).unwrap()
 }
 
 fn unit_square() -> Mesh {
-    Mesh::new(
-        &[DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y],
-        vec![[0, 1, 2], [0, 2, 3]],
-    )
-    .unwrap()
+    Mesh::new(&[DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y], vec![[0, 1, 2], [0, 2, 3]]).unwrap()
 }
 
 /// Radii and places at which everything must work.
@@ -41,16 +34,14 @@ fn no_ray_escapes_from_a_closed_mesh() {
         let mut stream = Stream(4);
         for i in 0..20_000 {
             let [a, b, c] = closed.triangle(i % closed.triangle_count() as u32).unwrap();
-            let from =
-                centre + DVec3::from_array(stream.direction()) * (0.3 * radius * stream.next());
+            let from = centre + DVec3::from_array(stream.direction()) * (0.3 * radius * stream.next());
             let target = match i % 3 {
                 0 => a,
                 1 => (b + c) * 0.5,
                 _ => a + (c - a) * stream.next(),
             };
             let hit = closed.closest(from, (target - from).normalize(), f64::INFINITY, None);
-            let hit =
-                hit.unwrap_or_else(|| panic!("radius {radius} centre {centre}: ray {i} escapes"));
+            let hit = hit.unwrap_or_else(|| panic!("radius {radius} centre {centre}: ray {i} escapes"));
             // What is met is the target, or something before it.
             assert!(hit.t < (target - from).length() + 1e-6 * radius);
         }
@@ -63,8 +54,7 @@ fn outgoing_rays_of_a_convex_mesh_meet_nothing_and_inward_rays_always_something(
         let sphere = mesh(icosphere(4), radius, centre);
         let mut stream = Stream(5);
         for i in 0..40_000 {
-            let (triangle, mut point, normal) =
-                sphere.sample_by_area([stream.next(), stream.next(), stream.next()]);
+            let (triangle, mut point, normal) = sphere.sample_by_area([stream.next(), stream.next(), stream.next()]);
             if i % 4 == 0 {
                 // On the edge, where the neighbour begins.
                 let [a, b, _] = sphere.triangle(triangle).unwrap();
@@ -79,12 +69,7 @@ fn outgoing_rays_of_a_convex_mesh_meet_nothing_and_inward_rays_always_something(
             let again = sphere.closest(point, outgoing, f64::INFINITY, Some(triangle));
             assert_eq!(again, None, "radius {radius} centre {centre}, ray {i}");
             assert!(!sphere.blocked(point, outgoing, f64::INFINITY, Some(triangle), None));
-            assert!(
-                sphere
-                    .closest(point, -outgoing, f64::INFINITY, Some(triangle))
-                    .is_some(),
-                "radius {radius} centre {centre}, ray {i}"
-            );
+            assert!(sphere.closest(point, -outgoing, f64::INFINITY, Some(triangle)).is_some(), "radius {radius} centre {centre}, ray {i}");
         }
     }
 }
@@ -95,19 +80,11 @@ fn points_of_a_convex_mesh_see_each_other_from_inside() {
         let sphere = mesh(icosphere(4), radius, centre);
         let mut stream = Stream(6);
         for i in 0..20_000 {
-            let (leaving, p, _) =
-                sphere.sample_by_area([stream.next(), stream.next(), stream.next()]);
-            let (arriving, q, _) =
-                sphere.sample_by_area([stream.next(), stream.next(), stream.next()]);
+            let (leaving, p, _) = sphere.sample_by_area([stream.next(), stream.next(), stream.next()]);
+            let (arriving, q, _) = sphere.sample_by_area([stream.next(), stream.next(), stream.next()]);
             let way = q - p;
             if leaving != arriving {
-                let blocked = sphere.blocked(
-                    p,
-                    way.normalize(),
-                    way.length(),
-                    Some(leaving),
-                    Some(arriving),
-                );
+                let blocked = sphere.blocked(p, way.normalize(), way.length(), Some(leaving), Some(arriving));
                 assert!(!blocked, "radius {radius} centre {centre}, pair {i}");
             }
             // From outside only the half that faces the point is seen.
@@ -115,13 +92,8 @@ fn points_of_a_convex_mesh_see_each_other_from_inside() {
             let way = q - far;
             let facing = -sphere.normal(arriving).unwrap().dot(way.normalize());
             if facing.abs() > 1e-2 {
-                let blocked =
-                    sphere.blocked(far, way.normalize(), way.length(), None, Some(arriving));
-                assert_eq!(
-                    blocked,
-                    facing < 0.0,
-                    "radius {radius} centre {centre}, pair {i}, cosine {facing}"
-                );
+                let blocked = sphere.blocked(far, way.normalize(), way.length(), None, Some(arriving));
+                assert_eq!(blocked, facing < 0.0, "radius {radius} centre {centre}, pair {i}, cosine {facing}");
             }
         }
     }
@@ -181,12 +153,7 @@ proptest! {
 #[test]
 fn area_samples_are_as_dense_as_area() {
     // Two triangles of areas 3 and 1: counts and the mean point.
-    let points = [
-        DVec3::ZERO,
-        DVec3::new(3.0, 0.0, 0.0),
-        DVec3::new(0.0, 2.0, 0.0),
-        DVec3::new(-1.0, 0.0, 0.0),
-    ];
+    let points = [DVec3::ZERO, DVec3::new(3.0, 0.0, 0.0), DVec3::new(0.0, 2.0, 0.0), DVec3::new(-1.0, 0.0, 0.0)];
     let surface = Mesh::new(&points, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
     assert!((surface.area_m2() - 4.0).abs() < 1e-6);
     assert!((surface.triangle_areas_m2().sum::<f64>() * surface.area_pdf_m2() - 1.0).abs() < 1e-12);
@@ -200,8 +167,7 @@ fn area_samples_are_as_dense_as_area() {
         assert!((normal - DVec3::Z).length() < 1e-12);
     }
     assert_eq!(first, 3 * n * n * n / 4);
-    let expected =
-        (DVec3::new(1.0, 2.0 / 3.0, 0.0) * 3.0 + DVec3::new(-1.0 / 3.0, 2.0 / 3.0, 0.0)) / 4.0;
+    let expected = (DVec3::new(1.0, 2.0 / 3.0, 0.0) * 3.0 + DVec3::new(-1.0 / 3.0, 2.0 / 3.0, 0.0)) / 4.0;
     assert!((mean - expected).length() < 1e-3, "{mean}");
 }
 
@@ -209,10 +175,7 @@ fn area_samples_are_as_dense_as_area() {
 fn a_mesh_knows_whether_it_is_closed_and_convex() {
     for (radius, centre) in places() {
         let sphere = mesh(icosphere(3), radius, centre);
-        assert!(
-            sphere.is_closed() && sphere.is_convex_closed(),
-            "{radius} {centre}"
-        );
+        assert!(sphere.is_closed() && sphere.is_convex_closed(), "{radius} {centre}");
         let bumpy = mesh(bumpy_icosphere(3), radius, centre);
         assert!(bumpy.is_closed() && !bumpy.is_convex_closed());
     }
@@ -230,14 +193,8 @@ fn a_mesh_knows_whether_it_is_closed_and_convex() {
     assert!(!mesh((points, turned), 1.0, DVec3::ZERO).is_closed());
     // Own vertices for each triangle.
     let (points, triangles) = icosphere(2);
-    let soup: Vec<[f64; 3]> = triangles
-        .iter()
-        .flatten()
-        .map(|&i| points[i as usize])
-        .collect();
-    let apart = (0..triangles.len() as u32)
-        .map(|i| [3 * i, 3 * i + 1, 3 * i + 2])
-        .collect();
+    let soup: Vec<[f64; 3]> = triangles.iter().flatten().map(|&i| points[i as usize]).collect();
+    let apart = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     assert!(mesh((soup, apart), 1.0, DVec3::ZERO).is_convex_closed());
 }
 
@@ -256,39 +213,17 @@ fn area_and_bounds_scale_as_geometry_says() {
 #[test]
 fn what_is_not_a_surface_is_an_error_that_says_why() {
     let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    assert_eq!(
-        Mesh::new(&corners, vec![]).unwrap_err(),
-        MeshError::NoTriangles
-    );
-    assert_eq!(
-        Mesh::new(&corners, vec![[0, 1, 3]]).unwrap_err(),
-        MeshError::IndexOutOfRange {
-            triangle: 0,
-            index: 3,
-            vertices: 3
-        }
-    );
+    assert_eq!(Mesh::new(&corners, vec![]).unwrap_err(), MeshError::NoTriangles);
+    assert_eq!(Mesh::new(&corners, vec![[0, 1, 3]]).unwrap_err(), MeshError::IndexOutOfRange { triangle: 0, index: 3, vertices: 3 });
     for bad in [f64::NAN, f64::INFINITY] {
         let points = [DVec3::ZERO, DVec3::new(0.0, bad, 0.0), DVec3::Y];
-        assert_eq!(
-            Mesh::new(&points, vec![[0, 1, 2]]).unwrap_err(),
-            MeshError::VertexNotFinite { vertex: 1 }
-        );
+        assert_eq!(Mesh::new(&points, vec![[0, 1, 2]]).unwrap_err(), MeshError::VertexNotFinite { vertex: 1 });
     }
-    assert_eq!(
-        Mesh::new(&corners, vec![[0, 1, 1]]).unwrap_err(),
-        MeshError::AllDegenerate { triangles: 1 }
-    );
-    assert_eq!(
-        Mesh::new(&[DVec3::X; 3], vec![[0, 1, 2]]).unwrap_err(),
-        MeshError::AllDegenerate { triangles: 1 }
-    );
+    assert_eq!(Mesh::new(&corners, vec![[0, 1, 1]]).unwrap_err(), MeshError::AllDegenerate { triangles: 1 });
+    assert_eq!(Mesh::new(&[DVec3::X; 3], vec![[0, 1, 2]]).unwrap_err(), MeshError::AllDegenerate { triangles: 1 });
     for size in [1e-200, 1e300] {
         let points = corners.map(|p| p * size);
-        assert!(matches!(
-            Mesh::new(&points, vec![[0, 1, 2]]),
-            Err(MeshError::ExtentOutOfRange { .. })
-        ));
+        assert!(matches!(Mesh::new(&points, vec![[0, 1, 2]]), Err(MeshError::ExtentOutOfRange { .. })));
     }
 }
 
@@ -296,19 +231,8 @@ fn what_is_not_a_surface_is_an_error_that_says_why() {
 fn triangles_without_area_are_dropped_and_counted() {
     let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(2.0, 0.0, 0.0)];
     let surface = Mesh::new(&points, vec![[0, 1, 3], [0, 1, 2], [2, 2, 1]]).unwrap();
-    assert_eq!(
-        (
-            surface.triangle_count(),
-            surface.degenerate_count(),
-            surface.vertex_count()
-        ),
-        (1, 2, 4)
-    );
-    assert!(
-        surface
-            .closest(DVec3::new(0.2, 0.2, 1.0), -DVec3::Z, 2.0, None)
-            .is_some()
-    );
+    assert_eq!((surface.triangle_count(), surface.degenerate_count(), surface.vertex_count()), (1, 2, 4));
+    assert!(surface.closest(DVec3::new(0.2, 0.2, 1.0), -DVec3::Z, 2.0, None).is_some());
 }
 
 #[test]
@@ -318,13 +242,8 @@ fn a_way_that_ends_at_a_surface_is_free_and_one_that_goes_through_is_not() {
     assert!(!square.blocked(from, -DVec3::Z, 2.0, None, None));
     assert!(square.blocked(from, -DVec3::Z, 2.0 + 1e-5, None, None));
     assert!(square.closest(from, -DVec3::Z, 1.999, None).is_none());
-    let hit = square
-        .closest(from, -DVec3::Z, f64::INFINITY, None)
-        .unwrap();
-    assert!(
-        (hit.t - 2.0).abs() < 1e-12 && (hit.normal - DVec3::Z).length() < 1e-12,
-        "{hit:?}"
-    );
+    let hit = square.closest(from, -DVec3::Z, f64::INFINITY, None).unwrap();
+    assert!((hit.t - 2.0).abs() < 1e-12 && (hit.normal - DVec3::Z).length() < 1e-12, "{hit:?}");
 }
 
 #[test]
@@ -333,17 +252,7 @@ fn a_ray_from_a_billion_radii_away_meets_the_mesh_where_it_should() {
     let target = DVec3::new(0.25, 0.5, 0.0);
     for distance in [1.0, 1e3, 1e6, 1e9] {
         let direction = DVec3::new(0.0, 0.6, -0.8);
-        let hit = square
-            .closest(
-                target - direction * distance,
-                direction,
-                f64::INFINITY,
-                None,
-            )
-            .unwrap();
-        assert!(
-            (hit.point - target).length() < 4e-16 * distance + 1e-7,
-            "{distance}: {hit:?}"
-        );
+        let hit = square.closest(target - direction * distance, direction, f64::INFINITY, None).unwrap();
+        assert!((hit.point - target).length() < 4e-16 * distance + 1e-7, "{distance}: {hit:?}");
     }
 }

@@ -18,21 +18,14 @@ impl Mesh {
         let mut edges = Vec::with_capacity(3 * self.triangles.len());
         for corners in &self.triangles {
             for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-                let (from, to) = (
-                    canonical[corners[i] as usize],
-                    canonical[corners[j] as usize],
-                );
+                let (from, to) = (canonical[corners[i] as usize], canonical[corners[j] as usize]);
                 edges.push((from.min(to), from.max(to), from > to));
             }
         }
         edges.sort_unstable();
         let (pairs, rest) = edges.as_chunks::<2>();
-        let matched = pairs
-            .iter()
-            .all(|[a, b]| (a.0, a.1) == (b.0, b.1) && a.2 != b.2);
-        let separate = pairs
-            .windows(2)
-            .all(|two| (two[0][0].0, two[0][0].1) != (two[1][0].0, two[1][0].1));
+        let matched = pairs.iter().all(|[a, b]| (a.0, a.1) == (b.0, b.1) && a.2 != b.2);
+        let separate = pairs.windows(2).all(|two| (two[0][0].0, two[0][0].1) != (two[1][0].0, two[1][0].1));
         rest.is_empty() && matched && separate
     }
 
@@ -43,9 +36,7 @@ impl Mesh {
         let inside = |triangle: u32| {
             self.local_triangle(triangle).is_some_and(|corners| {
                 let normal = unit_normal(corners);
-                !self
-                    .bvh
-                    .any_vertex_beyond(normal.to_array(), normal.dot(corners[0]) + CONVEX_TOLERANCE)
+                !self.bvh.any_vertex_beyond(normal.to_array(), normal.dot(corners[0]) + CONVEX_TOLERANCE)
             })
         };
         (0..self.triangles.len() as u32).all(inside) && self.is_closed()

@@ -112,7 +112,13 @@ impl Polygon {
             })
             .collect();
         cumulative.iter_mut().for_each(|c| *c /= sum);
-        Ok(Polygon { corners: corners.into(), normal, area_m2: share * size * size, triangles: triangles.into(), cumulative: cumulative.into() })
+        Ok(Polygon {
+            corners: corners.into(),
+            normal,
+            area_m2: share * size * size,
+            triangles: triangles.into(),
+            cumulative: cumulative.into(),
+        })
     }
 
     /// The corners in order, counter-clockwise as seen from the front, m.

@@ -75,6 +75,9 @@ fn the_notch_of_a_polygon_is_outside() {
     let polygon = Polygon::new(&corners).unwrap();
     assert_eq!(polygon.area_m2(), 3.0);
     assert_eq!(polygon.nearest_point(DVec3::new(0.5, 0.5, 9.0)), DVec3::new(0.5, 0.5, 5.0));
-    assert!((polygon.nearest_point(DVec3::new(1.0, 2.0, 5.0)) - DVec3::new(0.5, 1.5, 5.0)).length() < 1e-15 || (polygon.nearest_point(DVec3::new(1.0, 2.0, 5.0)) - DVec3::new(1.5, 1.5, 5.0)).length() < 1e-15);
+    assert!(
+        (polygon.nearest_point(DVec3::new(1.0, 2.0, 5.0)) - DVec3::new(0.5, 1.5, 5.0)).length() < 1e-15
+            || (polygon.nearest_point(DVec3::new(1.0, 2.0, 5.0)) - DVec3::new(1.5, 1.5, 5.0)).length() < 1e-15
+    );
     assert_eq!(polygon.bounding_sphere().0, DVec3::new(1.0, 1.0, 5.0));
 }

@@ -4,10 +4,7 @@ use super::*;
 use proptest::prelude::*;
 
 fn budget(rows: &[(f64, f64)]) -> Budget {
-    let rows = rows
-        .iter()
-        .map(|&(u, nu)| BudgetRow::type_a("row", u, nu))
-        .collect();
+    let rows = rows.iter().map(|&(u, nu)| BudgetRow::type_a("row", u, nu)).collect();
     Budget { rows }
 }
 
@@ -18,14 +15,7 @@ fn close(a: f64, b: f64) -> bool {
 #[test]
 fn the_end_gauge_of_the_gum_has_sixteen_degrees_of_freedom() {
     // GUM H.1.6, table H.1: u_i in nm and ν_i; the text truncates ν_eff = 16.7 and finds U_99 = 93 nm.
-    let b = budget(&[
-        (25.0, 18.0),
-        (5.8, 24.0),
-        (3.9, 5.0),
-        (6.7, 8.0),
-        (2.9, 50.0),
-        (16.6, 2.0),
-    ]);
+    let b = budget(&[(25.0, 18.0), (5.8, 24.0), (3.9, 5.0), (6.7, 8.0), (2.9, 50.0), (16.6, 2.0)]);
     assert_eq!(b.combined_standard_uncertainty().round(), 32.0);
     let nu = b.effective_degrees_of_freedom();
     assert!((nu - 16.7).abs() < 0.15, "{nu}");
@@ -36,20 +26,11 @@ fn the_end_gauge_of_the_gum_has_sixteen_degrees_of_freedom() {
 #[test]
 fn rows_carry_the_divisor_of_their_distribution() {
     let third = 3f64.sqrt();
-    assert_eq!(
-        BudgetRow::rectangular("resolution", 0.6).standard_uncertainty,
-        0.6 / third
-    );
-    assert_eq!(
-        BudgetRow::one_sided("omitted", -0.6).standard_uncertainty,
-        0.6 / third
-    );
+    assert_eq!(BudgetRow::rectangular("resolution", 0.6).standard_uncertainty, 0.6 / third);
+    assert_eq!(BudgetRow::one_sided("omitted", -0.6).standard_uncertainty, 0.6 / third);
     let corrected = BudgetRow::one_sided_corrected("omitted", 0.6).standard_uncertainty;
     assert!(close(corrected, 0.3 / third));
-    assert_eq!(
-        BudgetRow::normal("certificate", 0.6).degrees_of_freedom,
-        f64::INFINITY
-    );
+    assert_eq!(BudgetRow::normal("certificate", 0.6).degrees_of_freedom, f64::INFINITY);
 }
 
 #[test]
@@ -60,10 +41,7 @@ fn an_exactly_known_budget_has_the_normal_coverage_factor() {
     let expanded = b.expanded().unwrap();
     assert_eq!(b.combined_standard_uncertainty(), 5.0);
     assert!((expanded.coverage_factor - 1.959_963_985).abs() < 1e-9);
-    assert!(close(
-        expanded.expanded_uncertainty,
-        5.0 * expanded.coverage_factor
-    ));
+    assert!(close(expanded.expanded_uncertainty, 5.0 * expanded.coverage_factor));
 }
 
 #[test]
@@ -74,10 +52,7 @@ fn sixteen_replicates_have_the_coverage_factor_2_131() {
 
 #[test]
 fn a_budget_without_uncertainty_has_the_expanded_uncertainty_zero() {
-    assert_eq!(
-        Budget::new().expanded().map(|e| e.expanded_uncertainty),
-        Some(0.0)
-    );
+    assert_eq!(Budget::new().expanded().map(|e| e.expanded_uncertainty), Some(0.0));
     assert_eq!(Budget::new().effective_degrees_of_freedom(), f64::INFINITY);
     let zero = budget(&[(0.0, 15.0), (0.0, 3.0)]);
     assert_eq!(zero.effective_degrees_of_freedom(), 3.0);
@@ -86,13 +61,7 @@ fn a_budget_without_uncertainty_has_the_expanded_uncertainty_zero() {
 
 #[test]
 fn what_is_not_a_number_is_never_covered() {
-    for (u, nu) in [
-        (f64::NAN, 15.0),
-        (f64::INFINITY, 15.0),
-        (1.0, 0.0),
-        (1.0, -3.0),
-        (1.0, f64::NAN),
-    ] {
+    for (u, nu) in [(f64::NAN, 15.0), (f64::INFINITY, 15.0), (1.0, 0.0), (1.0, -3.0), (1.0, f64::NAN)] {
         assert_eq!(budget(&[(1.0, 5.0), (u, nu)]).expanded(), None, "{u} {nu}");
     }
     for p in [0.0, 1.0, -0.5, 2.0, f64::NAN] {
@@ -106,14 +75,9 @@ fn what_is_not_a_number_is_never_covered() {
 #[test]
 fn squares_beyond_the_range_do_not_matter() {
     for unit in [1e300, 1e-300] {
-        let expanded = budget(&[(3.0 * unit, 15.0), (4.0 * unit, 15.0)])
-            .expanded()
-            .unwrap();
+        let expanded = budget(&[(3.0 * unit, 15.0), (4.0 * unit, 15.0)]).expanded().unwrap();
         let plain = budget(&[(3.0, 15.0), (4.0, 15.0)]).expanded().unwrap();
-        assert!(close(
-            expanded.expanded_uncertainty / unit,
-            plain.expanded_uncertainty
-        ));
+        assert!(close(expanded.expanded_uncertainty / unit, plain.expanded_uncertainty));
     }
 }
 

@@ -128,36 +128,21 @@ fn assert_close(found: Option<f64>, expected: f64, relative: f64, what: &str) {
 fn quantiles_agree_with_printed_tables() {
     assert_close(student_t_quantile(0.975, 15.0), 2.13145, 3e-6, "t");
     assert_close(student_t_quantile(0.975, 1.0), 12.7062, 1e-6, "t");
-    assert_close(
-        student_t_quantile(0.975, f64::INFINITY),
-        1.959964,
-        1e-6,
-        "t",
-    );
+    assert_close(student_t_quantile(0.975, f64::INFINITY), 1.959964, 1e-6, "t");
     assert_close(chi_squared_quantile(0.05, 15.0), 7.26094, 1e-6, "chi");
 }
 
 #[test]
 fn student_t_agrees_with_the_references() {
     for &(p, dof, t) in STUDENT_T {
-        assert_close(
-            student_t_quantile(p, dof),
-            t,
-            1e-10,
-            &format!("t({p}, {dof})"),
-        );
+        assert_close(student_t_quantile(p, dof), t, 1e-10, &format!("t({p}, {dof})"));
     }
 }
 
 #[test]
 fn chi_squared_agrees_with_the_references() {
     for &(p, dof, c) in CHI_SQUARED {
-        assert_close(
-            chi_squared_quantile(p, dof),
-            c,
-            1e-10,
-            &format!("chi({p}, {dof})"),
-        );
+        assert_close(chi_squared_quantile(p, dof), c, 1e-10, &format!("chi({p}, {dof})"));
     }
 }
 

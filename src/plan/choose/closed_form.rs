@@ -7,11 +7,8 @@ use crate::scene::Scene;
 use crate::sensor::{Acceptance, Aperture, Sensor};
 use crate::source::{Emitter, Source};
 
-pub(super) const CHOICE: Choice = Choice {
-    name: "closed_form",
-    sentence: "the direct light of an unobstructed source has a formula",
-    apply,
-};
+pub(super) const CHOICE: Choice =
+    Choice { name: "closed_form", sentence: "the direct light of an unobstructed source has a formula", apply };
 
 /// What is known about the direct light of an unobstructed source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,15 +1,11 @@
 //! The whole source lies below the horizon of the instrument, in each of its poses.
 
 use super::Rule;
-use crate::plan::{Bound, Plan, Transport};
 use crate::plan::sight;
+use crate::plan::{Bound, Plan, Transport};
 use crate::scene::Scene;
 
-pub(super) const RULE: Rule = Rule {
-    name: "behind_horizon",
-    sentence: "the whole source lies below the instrument's horizon",
-    apply,
-};
+pub(super) const RULE: Rule = Rule { name: "behind_horizon", sentence: "the whole source lies below the instrument's horizon", apply };
 
 fn apply(scene: &Scene, plan: &mut Plan) {
     plan.omit(RULE.name, |term| {

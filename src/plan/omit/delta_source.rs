@@ -6,11 +6,7 @@ use crate::scene::Scene;
 use crate::sensor::Aperture;
 use crate::source::Emitter;
 
-pub(super) const RULE: Rule = Rule {
-    name: "delta_source",
-    sentence: "a source without extent needs one connection from a point",
-    apply,
-};
+pub(super) const RULE: Rule = Rule { name: "delta_source", sentence: "a source without extent needs one connection from a point", apply };
 
 fn apply(scene: &Scene, plan: &mut Plan) {
     let mut counts = vec![0usize; scene.instruments.len()];
@@ -23,6 +19,10 @@ fn apply(scene: &Scene, plan: &mut Plan) {
         }
     }
     for (instrument, &count) in counts.iter().enumerate().filter(|(_, c)| **c > 0) {
-        plan.narrowed.push(Narrowing { rule: RULE.name, instrument, what: format!("samples of {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence) });
+        plan.narrowed.push(Narrowing {
+            rule: RULE.name,
+            instrument,
+            what: format!("samples of {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence),
+        });
     }
 }

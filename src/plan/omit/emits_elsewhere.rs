@@ -1,15 +1,12 @@
 //! The source emits from one side only, and the instrument is on the other, in each of its poses.
 
 use super::Rule;
-use crate::plan::{Bound, Plan, Transport};
 use crate::plan::sight;
+use crate::plan::{Bound, Plan, Transport};
 use crate::scene::Scene;
 
-pub(super) const RULE: Rule = Rule {
-    name: "emits_elsewhere",
-    sentence: "the source shows the instrument only sides that do not emit",
-    apply,
-};
+pub(super) const RULE: Rule =
+    Rule { name: "emits_elsewhere", sentence: "the source shows the instrument only sides that do not emit", apply };
 
 fn apply(scene: &Scene, plan: &mut Plan) {
     plan.omit(RULE.name, |term| {

@@ -2,8 +2,8 @@
 //! reflects, the instrument cannot see it.
 
 use super::Rule;
-use crate::plan::{Bound, Plan, Transport};
 use crate::plan::sight;
+use crate::plan::{Bound, Plan, Transport};
 use crate::scene::Scene;
 
 pub(super) const RULE: Rule = Rule {

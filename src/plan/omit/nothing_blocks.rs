@@ -4,9 +4,9 @@
 //! the emitting side of the piece; to one side of both, or both to one side of it; or it is a sphere with both inside.
 
 use super::Rule;
+use crate::plan::sight::Shafts;
 use crate::plan::{Narrowing, Plan, Transport, Visibility};
 use crate::scene::Scene;
-use crate::plan::sight::Shafts;
 
 pub(super) const RULE: Rule = Rule { name: "nothing_blocks", sentence: "nothing can stand between source and aperture", apply };
 
@@ -27,6 +27,10 @@ fn apply(scene: &Scene, plan: &mut Plan) {
         }
     }
     for (instrument, &count) in counts.iter().enumerate().filter(|(_, c)| **c > 0) {
-        plan.narrowed.push(Narrowing { rule: RULE.name, instrument, what: format!("shadow rays of {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence) });
+        plan.narrowed.push(Narrowing {
+            rule: RULE.name,
+            instrument,
+            what: format!("shadow rays of {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence),
+        });
     }
 }

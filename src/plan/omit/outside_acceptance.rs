@@ -1,15 +1,11 @@
 //! The whole source lies outside the directions that the sensor accepts, in each pose of the instrument.
 
 use super::Rule;
-use crate::plan::{Bound, Plan, Transport};
 use crate::plan::sight;
+use crate::plan::{Bound, Plan, Transport};
 use crate::scene::Scene;
 
-pub(super) const RULE: Rule = Rule {
-    name: "outside_acceptance",
-    sentence: "the whole source lies outside the sensor's acceptance",
-    apply,
-};
+pub(super) const RULE: Rule = Rule { name: "outside_acceptance", sentence: "the whole source lies outside the sensor's acceptance", apply };
 
 fn apply(scene: &Scene, plan: &mut Plan) {
     plan.omit(RULE.name, |term| {
@@ -20,7 +16,8 @@ fn apply(scene: &Scene, plan: &mut Plan) {
             return None;
         }
         let source = &scene.sources[term.id.source()];
-        let nearest = instrument.poses.iter().map(|pose| sight::smallest_angle_rad(scene, pose, reach, source)).fold(f64::INFINITY, f64::min);
+        let nearest =
+            instrument.poses.iter().map(|pose| sight::smallest_angle_rad(scene, pose, reach, source)).fold(f64::INFINITY, f64::min);
         (nearest > limit).then(|| {
             let reason = format!("at least {:.4}° off axis, acceptance ends at {:.4}°", nearest.to_degrees(), limit.to_degrees());
             (reason.into(), Bound::Zero)

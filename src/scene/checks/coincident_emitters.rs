@@ -105,7 +105,12 @@ fn convex_parts(shape: &Shape) -> Vec<Vec<DVec3>> {
 fn separated(part: &[DVec3], other: &[DVec3], normal: DVec3) -> bool {
     (0..part.len()).any(|i| {
         let across = (part[(i + 1) % part.len()] - part[i]).cross(normal);
-        let along = |points: &[DVec3]| points.iter().map(|p| across.dot(*p - part[i])).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let along = |points: &[DVec3]| {
+            points
+                .iter()
+                .map(|p| across.dot(*p - part[i]))
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+        };
         let ((low, high), (from, to)) = (along(part), along(other));
         let slack = SAME * (high - low).max(to - from);
         from >= high - slack || to <= low + slack

@@ -46,11 +46,7 @@ impl fmt::Display for MeshProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.byte_offset {
             Some(byte) => write!(f, "byte {byte}: {} ({})", self.message, self.help),
-            None => write!(
-                f,
-                "{}:{}: {} ({})",
-                self.line, self.column, self.message, self.help
-            ),
+            None => write!(f, "{}:{}: {} ({})", self.line, self.column, self.message, self.help),
         }
     }
 }
@@ -67,18 +63,8 @@ pub struct MeshProblems {
 impl MeshProblems {
     fn push(&mut self, at: Place, message: impl FnOnce() -> String, help: &str) {
         if self.problems.len() < PROBLEM_LIMIT {
-            let Place {
-                line,
-                column,
-                byte_offset,
-            } = at;
-            self.problems.push(MeshProblem {
-                line,
-                column,
-                byte_offset,
-                message: message(),
-                help: help.to_owned(),
-            });
+            let Place { line, column, byte_offset } = at;
+            self.problems.push(MeshProblem { line, column, byte_offset, message: message(), help: help.to_owned() });
         } else {
             self.more += 1;
         }
@@ -112,11 +98,7 @@ struct Place {
 
 impl Place {
     fn text(line: usize, column: usize) -> Place {
-        Place {
-            line,
-            column,
-            byte_offset: None,
-        }
+        Place { line, column, byte_offset: None }
     }
 }
 
@@ -126,10 +108,7 @@ fn words(line: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     std::iter::from_fn(move || {
         at += line[at..].iter().position(|c| !c.is_ascii_whitespace())?;
         let start = at;
-        at += line[start..]
-            .iter()
-            .position(u8::is_ascii_whitespace)
-            .unwrap_or(line.len() - start);
+        at += line[start..].iter().position(u8::is_ascii_whitespace).unwrap_or(line.len() - start);
         Some((start + 1, &line[start..at]))
     })
 }

@@ -36,10 +36,8 @@ const PASSED_OVER: [&[u8]; 20] = [
     b"call",
 ];
 /// Statements of free-form geometry.
-const FREE_FORM: [&[u8]; 12] = [
-    b"cstype", b"deg", b"bmat", b"step", b"curv", b"curv2", b"surf", b"parm", b"trim", b"hole",
-    b"scrv", b"con",
-];
+const FREE_FORM: [&[u8]; 12] =
+    [b"cstype", b"deg", b"bmat", b"step", b"curv", b"curv2", b"surf", b"parm", b"trim", b"hole", b"scrv", b"con"];
 
 /// A word with its line and column.
 type Word<'a> = (usize, usize, &'a [u8]);
@@ -52,15 +50,9 @@ pub fn parse_obj(bytes: &[u8]) -> Result<MeshData, MeshProblems> {
     let mut reader = Reader::default();
     let mut statement: Vec<Word> = Vec::new();
     for (index, line) in bytes.split(|&c| c == b'\n').enumerate() {
-        let text = line
-            .split(|&c| c == b'#')
-            .next()
-            .unwrap_or_default()
-            .trim_ascii_end();
+        let text = line.split(|&c| c == b'#').next().unwrap_or_default().trim_ascii_end();
         // A backslash at the end of a line continues the statement.
-        let (text, continued) = text
-            .strip_suffix(b"\\")
-            .map_or((text, false), |text| (text, true));
+        let (text, continued) = text.strip_suffix(b"\\").map_or((text, false), |text| (text, true));
         statement.extend(words(text).map(|(column, word)| (index + 1, column, word)));
         if !continued {
             reader.statement(&statement);
@@ -108,19 +100,11 @@ impl Reader {
 
     fn vertex(&mut self, at: Place, arguments: &[Word]) {
         if self.mesh.points.len() == ELEMENT_LIMIT {
-            self.problems.push(
-                at,
-                || format!("more than {ELEMENT_LIMIT} vertices"),
-                "divide the mesh",
-            );
+            self.problems.push(at, || format!("more than {ELEMENT_LIMIT} vertices"), "divide the mesh");
             return;
         }
         if arguments.len() < 3 {
-            self.problems.push(
-                at,
-                || format!("a vertex with {} coordinates", arguments.len()),
-                "a vertex is v x y z",
-            );
+            self.problems.push(at, || format!("a vertex with {} coordinates", arguments.len()), "a vertex is v x y z");
         }
         let mut point = [0.0; 3];
         for (coordinate, &(line, column, word)) in point.iter_mut().zip(arguments) {
@@ -139,11 +123,7 @@ impl Reader {
 
     fn face(&mut self, at: Place, arguments: &[Word]) {
         if arguments.len() < 3 {
-            self.problems.push(
-                at,
-                || format!("a face with {} corners", arguments.len()),
-                "a face has at least three corners: f a b c",
-            );
+            self.problems.push(at, || format!("a face with {} corners", arguments.len()), "a face has at least three corners: f a b c");
             return;
         }
         let mut polygon = std::mem::take(&mut self.polygon);
@@ -151,19 +131,12 @@ impl Reader {
         for &(line, column, word) in arguments {
             match self.corner(line, column, word) {
                 Ok(index) => polygon.push(index),
-                Err((message, help)) => {
-                    self.problems
-                        .push(Place::text(line, column), || message, help)
-                }
+                Err((message, help)) => self.problems.push(Place::text(line, column), || message, help),
             }
         }
         if polygon.len() == arguments.len() && self.problems.is_empty() {
             if self.mesh.triangles.len() + polygon.len() - 2 > ELEMENT_LIMIT {
-                self.problems.push(
-                    at,
-                    || format!("more than {ELEMENT_LIMIT} triangles"),
-                    "divide the mesh",
-                );
+                self.problems.push(at, || format!("more than {ELEMENT_LIMIT} triangles"), "divide the mesh");
             } else {
                 push_fan(&polygon, &mut self.mesh.triangles);
             }
@@ -171,20 +144,11 @@ impl Reader {
         self.polygon = polygon;
     }
 
-    fn corner(
-        &mut self,
-        line: usize,
-        column: usize,
-        word: &[u8],
-    ) -> Result<u32, (String, &'static str)> {
+    fn corner(&mut self, line: usize, column: usize, word: &[u8]) -> Result<u32, (String, &'static str)> {
         const FORM: &str = "a corner is v, v/vt, v//vn or v/vt/vn with whole numbers counted from 1, or from -1 backwards";
         let mut parts = word.split(|&c| c == b'/');
         let index = parts.next().and_then(integer).filter(|&index| index != 0);
-        let rest_is_right = parts
-            .by_ref()
-            .take(2)
-            .all(|part| part.is_empty() || integer(part).is_some())
-            && parts.next().is_none();
+        let rest_is_right = parts.by_ref().take(2).all(|part| part.is_empty() || integer(part).is_some()) && parts.next().is_none();
         let (Some(index), true) = (index, rest_is_right) else {
             return Err((format!("{} is not a corner", quoted(word)), FORM));
         };
@@ -223,11 +187,7 @@ impl Reader {
                 "a face is f a b c; lines and points have no area",
             );
         }
-        if self.problems.is_empty() {
-            Ok(self.mesh)
-        } else {
-            Err(self.problems)
-        }
+        if self.problems.is_empty() { Ok(self.mesh) } else { Err(self.problems) }
     }
 }
 

@@ -21,9 +21,5 @@ pub fn parse_ply(bytes: &[u8]) -> Result<MeshData, MeshProblems> {
     if let (Some(header), true) = (&header, problems.is_empty()) {
         body::read(bytes, header, &mut mesh, &mut problems);
     }
-    if problems.is_empty() {
-        Ok(mesh)
-    } else {
-        Err(problems)
-    }
+    if problems.is_empty() { Ok(mesh) } else { Err(problems) }
 }

@@ -15,19 +15,13 @@ fn square_ply(format: &str) -> Vec<u8> {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.5]];
     let faces: [&[i32]; 2] = [&[0, 1, 2, 3], &[2, 1, 0]];
     if format == "ascii" {
-        corners
-            .iter()
-            .for_each(|[x, y]| bytes.extend(format!("255 {x} {y} 0.25 2 -7 8\n").bytes()));
+        corners.iter().for_each(|[x, y]| bytes.extend(format!("255 {x} {y} 0.25 2 -7 8\n").bytes()));
         bytes.extend(b"4 0 1 2 3 0.5\n\n3 2 1 0 0.5\n7");
         return bytes;
     }
     let big = format == "binary_big_endian";
     let mut put = |little: &[u8]| {
-        if big {
-            bytes.extend(little.iter().rev())
-        } else {
-            bytes.extend(little)
-        }
+        if big { bytes.extend(little.iter().rev()) } else { bytes.extend(little) }
     };
     for [x, y] in corners {
         put(&[255]);
@@ -49,12 +43,7 @@ fn square_ply(format: &str) -> Vec<u8> {
 
 fn first(result: Result<MeshData, MeshProblems>) -> (usize, usize, Option<usize>, String) {
     let problem = result.unwrap_err().problems.swap_remove(0);
-    (
-        problem.line,
-        problem.column,
-        problem.byte_offset,
-        problem.message,
-    )
+    (problem.line, problem.column, problem.byte_offset, problem.message)
 }
 
 #[test]
@@ -71,19 +60,10 @@ fn the_three_formats_of_ply_say_the_same() {
         let mesh = parse_ply(&square_ply(format)).unwrap();
         assert_eq!(
             mesh.points,
-            vec![
-                DVec3::new(0.0, 0.0, 0.25),
-                DVec3::new(1.0, 0.0, 0.25),
-                DVec3::new(1.0, 1.0, 0.25),
-                DVec3::new(0.0, 1.5, 0.25)
-            ],
+            vec![DVec3::new(0.0, 0.0, 0.25), DVec3::new(1.0, 0.0, 0.25), DVec3::new(1.0, 1.0, 0.25), DVec3::new(0.0, 1.5, 0.25)],
             "{format}"
         );
-        assert_eq!(
-            mesh.triangles,
-            vec![[0, 1, 2], [0, 2, 3], [2, 1, 0]],
-            "{format}"
-        );
+        assert_eq!(mesh.triangles, vec![[0, 1, 2], [0, 2, 3], [2, 1, 0]], "{format}");
     }
 }
 
@@ -91,34 +71,12 @@ fn the_three_formats_of_ply_say_the_same() {
 fn every_problem_of_an_obj_file_is_reported_with_its_place() {
     let text = "v 0 0\nv 0 x 0\nv 0 0 nan\nf 1 2 9\nf 1/a 2 3\nf -9 1 2\nf 1 2\nf 0 1 2\nwhat 3\nsurf 0 1\n";
     let problems = parse_obj(text.as_bytes()).unwrap_err();
-    let places: Vec<(usize, usize)> = problems
-        .problems
-        .iter()
-        .map(|p| (p.line, p.column))
-        .collect();
-    assert_eq!(
-        places,
-        [
-            (1, 1),
-            (2, 5),
-            (3, 7),
-            (5, 3),
-            (6, 3),
-            (7, 1),
-            (8, 3),
-            (9, 1),
-            (10, 1),
-            (4, 7)
-        ],
-        "{problems}"
-    );
+    let places: Vec<(usize, usize)> = problems.problems.iter().map(|p| (p.line, p.column)).collect();
+    assert_eq!(places, [(1, 1), (2, 5), (3, 7), (5, 3), (6, 3), (7, 1), (8, 3), (9, 1), (10, 1), (4, 7)], "{problems}");
     assert!(problems.problems.iter().all(|p| !p.help.is_empty()));
     let many = "v a b c\n".repeat(50);
     let problems = parse_obj(many.as_bytes()).unwrap_err();
-    assert_eq!(
-        (problems.problems.len(), problems.more),
-        (PROBLEM_LIMIT, 150 - PROBLEM_LIMIT)
-    );
+    assert_eq!((problems.problems.len(), problems.more), (PROBLEM_LIMIT, 150 - PROBLEM_LIMIT));
     assert!(problems.to_string().ends_with("and 130 more\n"));
 }
 
@@ -127,11 +85,7 @@ fn a_file_without_faces_is_a_problem() {
     assert!(first(parse_obj(b"v 0 0 0\n")).3.contains("no faces"));
     assert!(first(parse_obj(b"")).3.contains("no faces"));
     let cloud = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n";
-    assert!(
-        first(parse_ply(cloud.as_bytes()))
-            .3
-            .contains("no element \"face\"")
-    );
+    assert!(first(parse_ply(cloud.as_bytes())).3.contains("no element \"face\""));
 }
 
 #[test]
@@ -158,11 +112,7 @@ fn problems_of_a_ply_body_name_line_and_column_or_byte() {
     let head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 3\nproperty list uchar int vertex_indices\nend_header\n";
     let text = format!("{head}0 0 0\n1 0 zero\n0 1 0 5\n3 0 1 2\n3 0 1 3\n2 0 1\n");
     let problems = parse_ply(text.as_bytes()).unwrap_err();
-    let places: Vec<(usize, usize)> = problems
-        .problems
-        .iter()
-        .map(|p| (p.line, p.column))
-        .collect();
+    let places: Vec<(usize, usize)> = problems.problems.iter().map(|p| (p.line, p.column)).collect();
     assert_eq!(places, [(11, 5), (12, 5), (14, 7), (15, 5)], "{problems}");
     let whole = square_ply("binary_little_endian");
     let (.., byte, message) = first(parse_ply(&whole[..whole.len() - 2]));
@@ -174,16 +124,9 @@ fn problems_of_a_ply_header_are_reported_together() {
     let text = "ply\nformat ascii 1.0\nproperty float early\nelement vertex 3\nproperty flaot x\nproperty float y\nnonsense\nelement face 1\nproperty list float float vertex_indices\nend_header\n";
     let problems = parse_ply(text.as_bytes()).unwrap_err();
     let lines: Vec<usize> = problems.problems.iter().map(|p| p.line).collect();
-    assert!(
-        [3, 5, 7, 9, 4, 8].iter().all(|line| lines.contains(line)),
-        "{problems}"
-    );
+    assert!([3, 5, 7, 9, 4, 8].iter().all(|line| lines.contains(line)), "{problems}");
     assert_eq!(first(parse_ply(b"plz\n")).0, 1);
-    assert!(
-        first(parse_ply(b"ply\nformat ascii 1.0\n"))
-            .3
-            .contains("does not end")
-    );
+    assert!(first(parse_ply(b"ply\nformat ascii 1.0\n")).3.contains("does not end"));
     assert!(first(parse_ply(b"ply\nformat ascii 2.0\nend_header\n")).0 == 2);
 }
 

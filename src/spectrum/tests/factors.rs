@@ -8,10 +8,8 @@ fn any_factor() -> impl Strategy<Value = Factor> {
     let leaf = prop_oneof![
         (-2.0..2.0_f64).prop_map(Factor::Constant),
         (-2e-3..2e-3_f64).prop_map(Factor::Proportional),
-        (300.0..600.0_f64, 1.0..200.0_f64, -2.0..2.0_f64)
-            .prop_map(|(from, width, value)| Factor::band(from, from + width, value).unwrap()),
-        (0.0..2.0_f64, 300.0..800.0_f64, 0.1..100.0_f64)
-            .prop_map(|(p, c, s)| Factor::gaussian(p, c, s).unwrap()),
+        (300.0..600.0_f64, 1.0..200.0_f64, -2.0..2.0_f64).prop_map(|(from, width, value)| Factor::band(from, from + width, value).unwrap()),
+        (0.0..2.0_f64, 300.0..800.0_f64, 0.1..100.0_f64).prop_map(|(p, c, s)| Factor::gaussian(p, c, s).unwrap()),
         (prop::collection::vec(-1.0..1.0_f64, 2..8), any::<bool>()).prop_map(|(values, hold)| {
             let wavelengths_nm = (0..values.len()).map(|i| 400.0 + 40.0 * i as f64).collect();
             let outside = if hold { Outside::Hold } else { Outside::Zero };
@@ -54,14 +52,7 @@ proptest! {
 #[test]
 fn a_line_on_the_edge_of_a_band_passes() {
     let band = Factor::band(500.0, 600.0, 0.5).unwrap();
-    assert_eq!(
-        [
-            band.at(500.0),
-            band.at(600.0),
-            band.at(500.0_f64.next_down())
-        ],
-        [0.5, 0.5, 0.0]
-    );
+    assert_eq!([band.at(500.0), band.at(600.0), band.at(500.0_f64.next_down())], [0.5, 0.5, 0.0]);
     assert_eq!(band.is_constant_over(500.0, 600.0), Some(0.5));
     assert_eq!(band.is_constant_over(500.0, 601.0), None);
     assert_eq!(band.is_constant_over(601.0, 700.0), Some(0.0));

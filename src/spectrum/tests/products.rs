@@ -11,22 +11,17 @@ fn close(value: f64, reference: f64, relative: f64) -> bool {
 }
 
 fn any_table(nodes: std::ops::Range<usize>) -> impl Strategy<Value = Table> {
-    (
-        prop::collection::vec((0.01..60.0_f64, 0.0..1.0_f64), nodes),
-        300.0..700.0_f64,
-        any::<bool>(),
-    )
-        .prop_map(|(steps, start, hold)| {
-            let mut nm = start;
-            let rows: Vec<(f64, f64)> = steps
-                .into_iter()
-                .map(|(step, value)| {
-                    nm += step;
-                    (nm, value)
-                })
-                .collect();
-            Table::from_rows(&rows, if hold { Outside::Hold } else { Outside::Zero }).unwrap()
-        })
+    (prop::collection::vec((0.01..60.0_f64, 0.0..1.0_f64), nodes), 300.0..700.0_f64, any::<bool>()).prop_map(|(steps, start, hold)| {
+        let mut nm = start;
+        let rows: Vec<(f64, f64)> = steps
+            .into_iter()
+            .map(|(step, value)| {
+                nm += step;
+                (nm, value)
+            })
+            .collect();
+        Table::from_rows(&rows, if hold { Outside::Hold } else { Outside::Zero }).unwrap()
+    })
 }
 
 /// The same function with one more node.
@@ -44,12 +39,7 @@ fn any_density() -> impl Strategy<Value = Density> {
     prop_oneof![
         any_table(2..12).prop_map(|table| Density::table(table).unwrap()),
         (1.0..2e4_f64).prop_map(|kelvin| Density::black_body(kelvin).unwrap()),
-        (-6.0..2.0_f64, 350.0..800.0_f64).prop_map(|(ln, nm)| Density::gaussian(
-            1.0,
-            nm,
-            10.0_f64.powf(ln)
-        )
-        .unwrap()),
+        (-6.0..2.0_f64, 350.0..800.0_f64).prop_map(|(ln, nm)| Density::gaussian(1.0, nm, 10.0_f64.powf(ln)).unwrap()),
         (350.0..800.0_f64).prop_map(|nm| Density::line(nm, 2.0).unwrap()),
         Just(Density::illuminant_a()),
     ]
@@ -141,67 +131,38 @@ fn the_wien_tail_is_not_lost_when_the_scale_brings_it_back() {
     let band = Factor::band(360.0, 830.0, 1.0).unwrap();
     let far = Density::black_body(20.0).unwrap();
     assert_eq!(far.integral(&[&band]), 0.0);
-    let near = far
-        .scaled(1e300)
-        .unwrap()
-        .integral(&[&band, &Factor::Constant(1e100)]);
+    let near = far.scaled(1e300).unwrap().integral(&[&band, &Factor::Constant(1e100)]);
     // Leading order of the integral at its upper end b: L(b) · λ b T/c₂ with λ = b, corrected by the next two orders.
     let (b, t) = (830.0_f64, 20.0_f64);
     let x = black_body::SECOND_RADIATION_CONSTANT_NM_K / (b * t);
     let series = 1.0 + 3.0 / x + 6.0 / (x * x) + 6.0 / (x * x * x);
-    let ln = black_body::ln_spectral_radiance(b, t)
-        + (b / x * series).ln()
-        + 400.0 * std::f64::consts::LN_10;
+    let ln = black_body::ln_spectral_radiance(b, t) + (b / x * series).ln() + 400.0 * std::f64::consts::LN_10;
     assert!(close(near, ln.exp(), 1e-11), "{near:e} {:e}", ln.exp());
 }
 
 #[test]
 fn a_laser_in_a_gap_of_the_responsivity_reads_exactly_nothing() {
     // g4h.laser-gap-1, as two bands and as a table.
-    let bands = Factor::Sum(vec![
-        Factor::band(300.0, 620.0, 1.0).unwrap(),
-        Factor::band(640.0, 1100.0, 1.0).unwrap(),
-    ]);
-    let rows = [
-        (300.0, 1.0),
-        (620.0, 1.0),
-        (620.0_f64.next_up(), 0.0),
-        (640.0_f64.next_down(), 0.0),
-        (640.0, 1.0),
-    ];
+    let bands = Factor::Sum(vec![Factor::band(300.0, 620.0, 1.0).unwrap(), Factor::band(640.0, 1100.0, 1.0).unwrap()]);
+    let rows = [(300.0, 1.0), (620.0, 1.0), (620.0_f64.next_up(), 0.0), (640.0_f64.next_down(), 0.0), (640.0, 1.0)];
     let table = Factor::Table(Table::from_rows(&rows, Outside::Hold).unwrap());
     for responsivity in [bands, table] {
         let read = |nm| Density::line(nm, 0.005).unwrap().integral(&[&responsivity]);
         assert_eq!(read(633.0), 0.0);
         assert_eq!(read(641.0), 0.005);
         assert_eq!(read(640.0), 0.005);
-        assert!(
-            Density::line(633.0, 1.0)
-                .unwrap()
-                .joint_support(&[&responsivity])
-                .is_empty()
-        );
+        assert!(Density::line(633.0, 1.0).unwrap().joint_support(&[&responsivity]).is_empty());
     }
 }
 
 #[test]
 fn a_line_is_counted_once_and_exactly() {
-    let lines = [(435.8, 1.0), (546.1, 2.0), (578.0, 0.5)].map(|(wavelength_nm, power)| Line {
-        wavelength_nm,
-        power,
-    });
+    let lines = [(435.8, 1.0), (546.1, 2.0), (578.0, 0.5)].map(|(wavelength_nm, power)| Line { wavelength_nm, power });
     let mercury = Density::lines_only(&lines).unwrap();
-    let filter =
-        Factor::Table(Table::from_rows(&[(400.0, 0.0), (600.0, 1.0)], Outside::Zero).unwrap());
-    let expected: f64 = lines
-        .iter()
-        .map(|line| line.power * filter.at(line.wavelength_nm))
-        .sum();
+    let filter = Factor::Table(Table::from_rows(&[(400.0, 0.0), (600.0, 1.0)], Outside::Zero).unwrap());
+    let expected: f64 = lines.iter().map(|line| line.power * filter.at(line.wavelength_nm)).sum();
     assert!(close(mercury.integral(&[&filter]), expected, 1e-15));
-    assert_eq!(
-        mercury.filtered(&filter).total(),
-        mercury.integral(&[&filter])
-    );
+    assert_eq!(mercury.filtered(&filter).total(), mercury.integral(&[&filter]));
     let everything = mercury.plus(&Density::flat(400.0, 700.0, 0.01).unwrap());
     assert!(close(everything.total(), 6.5, 1e-15));
     assert_eq!(mercury.support().intervals().len(), 3);
@@ -210,10 +171,7 @@ fn a_line_is_counted_once_and_exactly() {
 #[test]
 fn fractions_of_black_body_radiance_agree_with_the_reference_cases() {
     // /reference/g2_spectral.json, g2a.bb-band-1 and -3.
-    for (kelvin, from, to, reference) in [
-        (5772.0, 380.0, 780.0, 0.464969804178027),
-        (2856.0, 780.0, 1100.0, 0.199027960003014),
-    ] {
+    for (kelvin, from, to, reference) in [(5772.0, 380.0, 780.0, 0.464969804178027), (2856.0, 780.0, 1100.0, 0.199027960003014)] {
         let band = Factor::band(from, to, 1.0).unwrap();
         let fraction = Density::black_body(kelvin).unwrap().mean_of(&band).unwrap();
         assert!(close(fraction, reference, 1e-12), "{fraction}");
@@ -224,11 +182,7 @@ fn fractions_of_black_body_radiance_agree_with_the_reference_cases() {
 fn illuminant_a_as_a_density_is_the_formula() {
     let density = Density::illuminant_a();
     for nm in (300..=830).map(f64::from) {
-        assert!(close(
-            density.continuum_at(nm),
-            black_body::illuminant_a(nm),
-            1e-12
-        ));
+        assert!(close(density.continuum_at(nm), black_body::illuminant_a(nm), 1e-12));
     }
     assert_eq!(density.support().hull(), Some((300.0, 830.0)));
     assert_eq!(density.continuum_at(299.0), 0.0);
@@ -243,12 +197,5 @@ fn densities_without_a_meaning_are_refused() {
     assert!(Density::flat(500.0, 400.0, 1.0).is_err());
     assert!(Density::zero().scaled(f64::NAN).is_err());
     let negative = Table::from_rows(&[(400.0, 1.0), (500.0, -1.0)], Outside::Zero).unwrap();
-    assert_eq!(
-        Density::table(negative),
-        Err(SpectrumError::Negative {
-            row: 2,
-            wavelength_nm: 500.0,
-            value: -1.0
-        })
-    );
+    assert_eq!(Density::table(negative), Err(SpectrumError::Negative { row: 2, wavelength_nm: 500.0, value: -1.0 }));
 }

@@ -18,7 +18,8 @@ fn only_problem(text: &str) -> (usize, usize, String, String) {
 
 #[test]
 fn header_names_and_columns_are_read() {
-    let text = "\u{feff}# Name: my diode\r\n# a remark\r\n# unit: A/W\r\nwavelength_nm,red,green\r\n380,0.1,0.2\r\n\r\n# note\r\n390,0.3,4e-1\r\n";
+    let text =
+        "\u{feff}# Name: my diode\r\n# a remark\r\n# unit: A/W\r\nwavelength_nm,red,green\r\n380,0.1,0.2\r\n\r\n# note\r\n390,0.3,4e-1\r\n";
     let table = parse(text, &TextRules::default()).unwrap();
     assert_eq!(table.header_value("name"), Some("my diode"));
     assert_eq!(table.header.len(), 2);
@@ -32,11 +33,7 @@ fn separators_may_be_comma_semicolon_tab_or_blanks() {
     for separator in [",", ", ", ";", "\t", "  "] {
         for names in ["", "nm{}value\n"] {
             let text = format!("{names}380{{}}0.5\n390{{}}0.6").replace("{}", separator);
-            assert_eq!(
-                parse(&text, &TextRules::default()).unwrap().columns,
-                [[0.5, 0.6]],
-                "{text:?}"
-            );
+            assert_eq!(parse(&text, &TextRules::default()).unwrap().columns, [[0.5, 0.6]], "{text:?}");
         }
     }
 }
@@ -51,69 +48,27 @@ fn all_problems_come_at_once() {
 #[test]
 fn each_problem_says_where_and_what_to_do() {
     let (line, column, message, help) = only_problem("380,0.1\n390,o.2\n");
-    assert_eq!(
-        (line, column, message.as_str()),
-        (2, 5, "`o.2` is not a number")
-    );
+    assert_eq!((line, column, message.as_str()), (2, 5, "`o.2` is not a number"));
     assert!(help.contains("0.42"));
-    assert!(
-        only_problem("380,0.1\n390,1e999\n")
-            .2
-            .contains("not a finite number")
-    );
-    assert_eq!(
-        only_problem("380,0.1\n390,0.2\n390,0.3\n").2,
-        "390 nm is there twice, in lines 2 and 3"
-    );
-    assert_eq!(
-        only_problem("380,0.1\n400,0.2\n390,0.3\n").2,
-        "390 nm in line 3 follows 400 nm in line 2"
-    );
-    assert_eq!(
-        only_problem("380,0.1\n390\n").2,
-        "too few columns: 1 instead of 2"
-    );
-    assert_eq!(
-        only_problem("380,0.1\n390,-0.1\n").2,
-        "the value -0.1 is negative"
-    );
-    assert!(
-        only_problem("-380,0.1\n390,0.1\n")
-            .2
-            .contains("not above 0")
-    );
-    assert!(
-        only_problem("# wavelength_unit: um\n380,0.1\n390,0.1\n")
-            .3
-            .contains("nm")
-    );
-    assert!(
-        only_problem("# unit: 1\n# unit: 2\n380,0.1\n390,0.1\n")
-            .2
-            .contains("twice")
-    );
+    assert!(only_problem("380,0.1\n390,1e999\n").2.contains("not a finite number"));
+    assert_eq!(only_problem("380,0.1\n390,0.2\n390,0.3\n").2, "390 nm is there twice, in lines 2 and 3");
+    assert_eq!(only_problem("380,0.1\n400,0.2\n390,0.3\n").2, "390 nm in line 3 follows 400 nm in line 2");
+    assert_eq!(only_problem("380,0.1\n390\n").2, "too few columns: 1 instead of 2");
+    assert_eq!(only_problem("380,0.1\n390,-0.1\n").2, "the value -0.1 is negative");
+    assert!(only_problem("-380,0.1\n390,0.1\n").2.contains("not above 0"));
+    assert!(only_problem("# wavelength_unit: um\n380,0.1\n390,0.1\n").3.contains("nm"));
+    assert!(only_problem("# unit: 1\n# unit: 2\n380,0.1\n390,0.1\n").2.contains("twice"));
     assert!(only_problem("").2.contains("no rows"));
     assert!(only_problem("380,0.1").2.contains("one row"));
-    assert!(
-        problems("380\n390\n")[0]
-            .message
-            .contains("at least one value")
-    );
+    assert!(problems("380\n390\n")[0].message.contains("at least one value"));
 }
 
 #[test]
 fn decimal_commas_are_recognised() {
-    for text in [
-        "380,5;0,12\n381,5;0,13\n",
-        "380,5\t0,12\n381,5\t0,13\n",
-        "380,5 0,12\n381,5 0,13\n",
-    ] {
+    for text in ["380,5;0,12\n381,5;0,13\n", "380,5\t0,12\n381,5\t0,13\n", "380,5 0,12\n381,5 0,13\n"] {
         let list = problems(text);
         assert_eq!(list.len(), 4, "{list:?}");
-        assert!(
-            list[0].help.contains("decimal comma; write `380.5`"),
-            "{list:?}"
-        );
+        assert!(list[0].help.contains("decimal comma; write `380.5`"), "{list:?}");
     }
     let list = problems("nm,value\n380,5,0,12\n381,5,0,13\n");
     assert!(list[0].help.contains("decimal commas"), "{list:?}");
@@ -121,36 +76,16 @@ fn decimal_commas_are_recognised() {
 
 #[test]
 fn wavelengths_in_other_units_are_recognised() {
-    assert!(
-        only_problem("0.38,1\n0.78,1\n")
-            .3
-            .contains("micrometres; multiply them by 1000")
-    );
-    assert!(
-        only_problem("380e-9,1\n780e-9,1\n")
-            .3
-            .contains("metres; multiply them by 1e9")
-    );
+    assert!(only_problem("0.38,1\n0.78,1\n").3.contains("micrometres; multiply them by 1000"));
+    assert!(only_problem("380e-9,1\n780e-9,1\n").3.contains("metres; multiply them by 1e9"));
 }
 
 #[test]
 fn sizes_are_limited() {
-    let rules = TextRules {
-        max_rows: 2,
-        max_columns: 3,
-        ..TextRules::default()
-    };
+    let rules = TextRules { max_rows: 2, max_columns: 3, ..TextRules::default() };
     assert!(parse("1,1\n20,1\n", &rules).is_ok());
-    assert!(
-        parse("1,1\n20,1\n30,1\n", &rules).unwrap_err()[0]
-            .message
-            .contains("more than 2 rows")
-    );
-    assert!(
-        parse("1,1,1,1\n20,1,1,1\n", &rules).unwrap_err()[0]
-            .message
-            .contains("4 columns")
-    );
+    assert!(parse("1,1\n20,1\n30,1\n", &rules).unwrap_err()[0].message.contains("more than 2 rows"));
+    assert!(parse("1,1,1,1\n20,1,1,1\n", &rules).unwrap_err()[0].message.contains("4 columns"));
     let many: String = (0..1000).map(|i| format!("{},x\n", 300 + i)).collect();
     let list = problems(&many);
     assert_eq!(list.len(), 101);
@@ -159,14 +94,8 @@ fn sizes_are_limited() {
 
 #[test]
 fn negative_values_pass_where_they_are_allowed() {
-    let rules = TextRules {
-        negative_values: true,
-        ..TextRules::default()
-    };
-    assert_eq!(
-        parse("380,-0.1\n390,0.2\n", &rules).unwrap().columns,
-        [[-0.1, 0.2]]
-    );
+    let rules = TextRules { negative_values: true, ..TextRules::default() };
+    assert_eq!(parse("380,-0.1\n390,0.2\n", &rules).unwrap().columns, [[-0.1, 0.2]]);
 }
 
 #[test]

@@ -155,34 +155,10 @@ proptest! {
 #[test]
 fn discs_agree_with_a_plain_sum() {
     for (c, m, r, n, beta) in [
-        (
-            DVec3::new(0.3, -0.2, 0.7),
-            DVec3::new(0.5, 0.2, 1.0),
-            0.9,
-            DVec3::new(1.0, 0.2, 0.1),
-            FRAC_PI_2,
-        ),
-        (
-            DVec3::new(1.3, 0.2, 0.7),
-            DVec3::new(-0.5, 0.2, 1.0),
-            0.9,
-            DVec3::new(0.1, 0.2, 1.0),
-            0.8,
-        ),
-        (
-            DVec3::new(0.1, 0.0, 0.7),
-            DVec3::new(-0.5, 0.2, 1.0),
-            1.9,
-            DVec3::new(0.3, 0.2, 1.0),
-            1.2,
-        ),
-        (
-            DVec3::new(1.5, 0.5, 0.1),
-            DVec3::new(1.0, 0.0, 0.1),
-            1.0,
-            DVec3::new(0.3, 0.2, 1.0),
-            1.4,
-        ),
+        (DVec3::new(0.3, -0.2, 0.7), DVec3::new(0.5, 0.2, 1.0), 0.9, DVec3::new(1.0, 0.2, 0.1), FRAC_PI_2),
+        (DVec3::new(1.3, 0.2, 0.7), DVec3::new(-0.5, 0.2, 1.0), 0.9, DVec3::new(0.1, 0.2, 1.0), 0.8),
+        (DVec3::new(0.1, 0.0, 0.7), DVec3::new(-0.5, 0.2, 1.0), 1.9, DVec3::new(0.3, 0.2, 1.0), 1.2),
+        (DVec3::new(1.5, 0.5, 0.1), DVec3::new(1.0, 0.0, 0.1), 1.0, DVec3::new(0.3, 0.2, 1.0), 1.4),
     ] {
         let (m, n) = (m.normalize(), n.normalize());
         let expected = brute_force_disc(c, m, r, n, beta);
@@ -193,23 +169,13 @@ fn discs_agree_with_a_plain_sum() {
 
 #[test]
 fn caps_agree_with_a_sum_over_polar_angle() {
-    for (alpha, tilt) in [
-        (0.5, 1.3_f64),
-        (0.5, 1.9),
-        (0.02, 1.58),
-        (1.4, 2.2),
-        (1.4, 0.4),
-        (1.5, 3.0),
-        (0.9, 2.4),
-        (2.0, 2.9),
-    ] {
+    for (alpha, tilt) in [(0.5, 1.3_f64), (0.5, 1.9), (0.02, 1.58), (1.4, 2.2), (1.4, 0.4), (1.5, 3.0), (0.9, 2.4), (2.0, 2.9)] {
         let steps = 400_000;
         let mut sum = 0.0;
         for k in 0..steps {
             let theta = (k as f64 + 0.5) * FRAC_PI_2 / f64::from(steps);
             let cosine = (f64::cos(alpha) - theta.cos() * tilt.cos()) / (theta.sin() * tilt.sin());
-            sum += 2.0 * cosine.clamp(-1.0, 1.0).acos() * theta.sin() * theta.cos() * FRAC_PI_2
-                / f64::from(steps);
+            sum += 2.0 * cosine.clamp(-1.0, 1.0).acos() * theta.sin() * theta.cos() * FRAC_PI_2 / f64::from(steps);
         }
         let value = sphere::cap(alpha, tilt);
         assert!(close(value, sum, 1e-5), "{alpha} {tilt}: {value} {sum}");
@@ -225,36 +191,23 @@ fn a_sliver_of_a_sunk_sphere_keeps_its_digits() {
             let s = (alpha * (1.0 - rise)).sin();
             let tau = ((alpha * rise).sin() * (2.0 * alpha).sin()).sqrt() / alpha.cos();
             let expected = 2.0 / 15.0 * tau.powi(5) * (1.0 - s * s) / (s * s);
-            assert!(
-                close(value, expected, 20.0 * rise + 1e-7),
-                "{alpha} {rise}: {value:e} {expected:e}"
-            );
+            assert!(close(value, expected, 20.0 * rise + 1e-7), "{alpha} {rise}: {value:e} {expected:e}");
         }
     }
 }
 
 #[test]
 fn far_and_grazing_polygons_approach_the_point_law() {
-    for (size, tilt) in [
-        (1e-3, 0.3),
-        (1e-6, 0.3),
-        (1e-9, 1e-6),
-        (1e-5, 1e-4),
-        (1e-12, 1.0),
-    ] {
+    for (size, tilt) in [(1e-3, 0.3), (1e-6, 0.3), (1e-9, 1e-6), (1e-5, 1e-4), (1e-12, 1.0)] {
         let n = DVec3::new(f64::sin(0.2), 0.0, f64::cos(0.2));
         let m = DVec3::new(-f64::sin(tilt), 0.0, f64::cos(tilt));
         let (u, v) = (DVec3::Y, m.cross(DVec3::Y));
         let centre = DVec3::new(1.0, 0.25, 0.0);
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-            .map(|(a, b)| centre + (u * a + v * b) * size);
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(a, b)| centre + (u * a + v * b) * size);
         let value = polygon::polygon_two_sided(&corners, n);
         let r = centre.length();
         let expected = 4.0 * size * size * centre.dot(n) * centre.dot(m).abs() / r.powi(4);
-        assert!(
-            close(value, expected, 10.0 * size + 1e-15 / size),
-            "{size} {tilt}: {value:e} {expected:e}"
-        );
+        assert!(close(value, expected, 10.0 * size + 1e-15 / size), "{size} {tilt}: {value:e} {expected:e}");
     }
 }
 
@@ -263,18 +216,9 @@ fn degenerate_sources_give_nothing_and_never_nan() {
     let z = DVec3::Z;
     assert_eq!(polygon::polygon_two_sided(&[DVec3::ZERO; 3], z), 0.0);
     assert_eq!(polygon::polygon_two_sided(&[z; 3], z), 0.0);
-    assert_eq!(
-        polygon::polygon_two_sided(&[z, z + DVec3::X, z + 2.0 * DVec3::X], z),
-        0.0
-    );
-    assert_eq!(
-        polygon::polygon_two_sided(&[-z, DVec3::X - z, DVec3::Y - z], z),
-        0.0
-    );
-    assert_eq!(
-        polygon::polygon_two_sided(&[DVec3::NAN, DVec3::X, DVec3::Y], z),
-        0.0
-    );
+    assert_eq!(polygon::polygon_two_sided(&[z, z + DVec3::X, z + 2.0 * DVec3::X], z), 0.0);
+    assert_eq!(polygon::polygon_two_sided(&[-z, DVec3::X - z, DVec3::Y - z], z), 0.0);
+    assert_eq!(polygon::polygon_two_sided(&[DVec3::NAN, DVec3::X, DVec3::Y], z), 0.0);
     assert_eq!(polygon_in_cone(&[z, DVec3::X, DVec3::Y], z, 0.0), 0.0);
     assert_eq!(disc::disc(-z, z, 1.0, z), 0.0);
     assert_eq!(disc::disc(z, z, 1.0, z), 0.0);
@@ -283,15 +227,8 @@ fn degenerate_sources_give_nothing_and_never_nan() {
     assert_eq!(sphere::sphere(-2.0 * z, 1.0, z), 0.0);
     assert_eq!(point::irradiance_factor(-z, z), 0.0);
     assert_eq!(point::irradiance_factor(DVec3::ZERO, z), 0.0);
-    assert_eq!(
-        point::irradiance_factor(DVec3::X * 1e200, DVec3::X * 1e-200),
-        0.0
-    );
-    assert!(close(
-        point::irradiance_factor(z * 1e-150, z * 1e200),
-        1e300,
-        1e-12
-    ));
+    assert_eq!(point::irradiance_factor(DVec3::X * 1e200, DVec3::X * 1e-200), 0.0);
+    assert!(close(point::irradiance_factor(z * 1e-150, z * 1e200), 1e300, 1e-12));
     assert_eq!(sphere::cap(f64::NAN, 0.1), 0.0);
 }
 
@@ -300,32 +237,16 @@ fn an_element_on_a_large_emitter_receives_pi() {
     let z = DVec3::Z;
     let square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     for height in [0.0, 1e-9] {
-        let corners: Vec<DVec3> = square
-            .iter()
-            .rev()
-            .map(|&(x, y)| DVec3::new(x, y, height))
-            .collect();
+        let corners: Vec<DVec3> = square.iter().rev().map(|&(x, y)| DVec3::new(x, y, height)).collect();
         assert!(close(polygon::polygon(&corners, z), PI, 1e-8));
         assert!(close(disc::disc(z * height, -z, 1.0, z), PI, 1e-8));
-        assert!(close(
-            polygon_in_cone(&corners, z, 0.5),
-            PI * f64::sin(0.5).powi(2),
-            1e-12
-        ));
+        assert!(close(polygon_in_cone(&corners, z, 0.5), PI * f64::sin(0.5).powi(2), 1e-12));
         let tilted = DVec3::new(1.0, 0.0, 1.0);
         let half_sunk = FRAC_PI_2 * (1.0 + f64::sqrt(0.5));
         assert!(close(polygon::polygon(&corners, tilted), half_sunk, 1e-8));
-        assert!(close(
-            disc::disc(z * height, -z, 1.0, tilted),
-            half_sunk,
-            1e-8
-        ));
+        assert!(close(disc::disc(z * height, -z, 1.0, tilted), half_sunk, 1e-8));
     }
-    assert!(close(
-        sphere::sphere(z, 1.0, tilted_by(0.7)),
-        FRAC_PI_2 * (1.0 + f64::cos(0.7)),
-        1e-7
-    ));
+    assert!(close(sphere::sphere(z, 1.0, tilted_by(0.7)), FRAC_PI_2 * (1.0 + f64::cos(0.7)), 1e-7));
 }
 
 fn tilted_by(angle: f64) -> DVec3 {
@@ -334,12 +255,7 @@ fn tilted_by(angle: f64) -> DVec3 {
 
 #[test]
 fn caps_in_cones_agree_with_a_sum_over_polar_angle() {
-    for (alpha, tilt, beta) in [
-        (0.3, 0.5_f64, 0.4),
-        (0.9, 0.2, 0.8),
-        (0.05, 0.1, 0.08),
-        (1.3, 1.5, 1.2),
-    ] {
+    for (alpha, tilt, beta) in [(0.3, 0.5_f64, 0.4), (0.9, 0.2, 0.8), (0.05, 0.1, 0.08), (1.3, 1.5, 1.2)] {
         let steps = 400_000;
         let mut sum = 0.0;
         for k in 0..steps {
@@ -355,11 +271,9 @@ fn caps_in_cones_agree_with_a_sum_over_polar_angle() {
 
 #[test]
 fn a_disc_cut_by_the_horizon_agrees_with_its_contour() {
-    for (c, t, r) in [
-        (DVec3::new(0.1, 0.3, 0.2), 1.4_f64, 1.0),
-        (DVec3::new(0.0, 0.0, 1e-3), 1.0, 0.5),
-        (DVec3::new(3.0, -1.0, 1.0), 1.9, 2.7),
-    ] {
+    for (c, t, r) in
+        [(DVec3::new(0.1, 0.3, 0.2), 1.4_f64, 1.0), (DVec3::new(0.0, 0.0, 1e-3), 1.0, 0.5), (DVec3::new(3.0, -1.0, 1.0), 1.9, 2.7)]
+    {
         let n = tilted_by(t);
         // The chord is parallel to y, the arc runs over |ψ| < end with x = r cos ψ.
         let end = (-n.dot(c) / (r * t.sin())).acos();

@@ -26,25 +26,14 @@ impl Case {
     }
 
     fn vectors(&self, name: &str) -> Vec<DVec3> {
-        self.0["inputs"][name]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(vector)
-            .collect()
+        self.0["inputs"][name].as_array().unwrap().iter().map(vector).collect()
     }
 
     fn check(&self, value: f64) {
         let reference = decimal(&self.0["reference"]);
-        let tolerance = (self.0["rel_tol"].as_f64().unwrap() * reference.abs())
-            .max(self.0["abs_tol"].as_f64().unwrap_or(0.0));
+        let tolerance = (self.0["rel_tol"].as_f64().unwrap() * reference.abs()).max(self.0["abs_tol"].as_f64().unwrap_or(0.0));
         let deviation = (value - reference).abs();
-        assert!(
-            deviation <= tolerance,
-            "{}: {value:e} instead of {reference:e}, relative {:e}",
-            self.id(),
-            deviation / reference
-        );
+        assert!(deviation <= tolerance, "{}: {value:e} instead of {reference:e}, relative {:e}", self.id(), deviation / reference);
     }
 }
 
@@ -58,18 +47,11 @@ fn vector(value: &Value) -> DVec3 {
 
 /// Cases whose id starts with `prefix`; a prefix without cases is a mistake of the test.
 fn cases(prefix: &str) -> Vec<Case> {
-    let files = [
-        include_str!("../../../../tests/reference/g1_radiometry.json"),
-        include_str!("../../../../tests/reference/g4_extreme.json"),
-    ];
+    let files =
+        [include_str!("../../../../tests/reference/g1_radiometry.json"), include_str!("../../../../tests/reference/g4_extreme.json")];
     let found: Vec<Case> = files
         .iter()
-        .flat_map(|text| {
-            serde_json::from_str::<Value>(text).unwrap()["cases"]
-                .as_array()
-                .unwrap()
-                .clone()
-        })
+        .flat_map(|text| serde_json::from_str::<Value>(text).unwrap()["cases"].as_array().unwrap().clone())
         .map(Case)
         .filter(|case| case.id().starts_with(prefix))
         .collect();
@@ -84,26 +66,14 @@ fn cones_of_acceptance() {
     }
     for prefix in ["g1a.cone-E", "g4c.tiny-accept"] {
         for case in cases(prefix) {
-            case.check(
-                case.number("L") * cone::projected_solid_angle(case.radians("half_angle_deg")),
-            );
+            case.check(case.number("L") * cone::projected_solid_angle(case.radians("half_angle_deg")));
         }
     }
     for case in cases("g4d.area") {
-        case.check(
-            case.number("A_m2")
-                * case.number("L")
-                * cone::projected_solid_angle(case.radians("half_angle_deg")),
-        );
+        case.check(case.number("A_m2") * case.number("L") * cone::projected_solid_angle(case.radians("half_angle_deg")));
     }
     for case in cases("g1a.tilted-cone") {
-        case.check(
-            case.number("L")
-                * cone::tilted_projected_solid_angle(
-                    case.radians("half_angle_deg"),
-                    case.radians("tilt_deg"),
-                ),
-        );
+        case.check(case.number("L") * cone::tilted_projected_solid_angle(case.radians("half_angle_deg"), case.radians("tilt_deg")));
     }
 }
 
@@ -111,30 +81,20 @@ fn cones_of_acceptance() {
 fn point_sources() {
     for case in cases("g1b.point-E") {
         let source = case.vector("source") - case.vector("sensor");
-        case.check(
-            case.number("I") * point::irradiance_factor(source, case.vector("normal_unnormalised")),
-        );
+        case.check(case.number("I") * point::irradiance_factor(source, case.vector("normal_unnormalised")));
     }
     for prefix in ["g1b.point-disc-flux", "g4d.near-point"] {
         for case in cases(prefix) {
-            case.check(
-                case.number("I")
-                    * point::disc_solid_angle(case.number("R_m"), case.number("h_m"), 0.0),
-            );
+            case.check(case.number("I") * point::disc_solid_angle(case.number("R_m"), case.number("h_m"), 0.0));
         }
     }
     for case in cases("g1b.point-rect-flux") {
         // a and b are full sides, h the distance of the point.
         let (a, b, h) = (case.number("a_m"), case.number("b_m"), case.number("h_m"));
         let corner = DVec3::new(-0.5 * a, -0.5 * b, h);
-        case.check(
-            case.number("I") * point::parallelogram_solid_angle(corner, DVec3::X * a, DVec3::Y * b),
-        );
+        case.check(case.number("I") * point::parallelogram_solid_angle(corner, DVec3::X * a, DVec3::Y * b));
     }
-    for case in cases("g4c.grazing-")
-        .into_iter()
-        .filter(|case| !case.id().contains("disc"))
-    {
+    for case in cases("g4c.grazing-").into_iter().filter(|case| !case.id().contains("disc")) {
         let (sin, cos) = case.radians("t_deg").sin_cos();
         let source = DVec3::new(sin, 0.0, cos) * case.number("r_m");
         case.check(case.number("I") * point::irradiance_factor(source, DVec3::Z));
@@ -154,23 +114,12 @@ fn disc_sources() {
             let (sin, cos) = case.radians("t_deg").sin_cos();
             let centre = case.vector("disc_centre_m") - case.vector("sensor");
             let normal = DVec3::new(sin, 0.0, cos);
-            case.check(
-                case.number("L")
-                    * disc::disc(
-                        centre,
-                        case.vector("disc_normal"),
-                        case.number("R_m"),
-                        normal,
-                    ),
-            );
+            case.check(case.number("L") * disc::disc(centre, case.vector("disc_normal"), case.number("R_m"), normal));
         }
     }
     for case in cases("g4a.scale-disc") {
         let s = case.number("scale_s_m");
-        case.check(
-            case.number("L")
-                * disc::disc(DVec3::new(0.25 * s, 0.0, s), -DVec3::Z, 0.5 * s, DVec3::Z),
-        );
+        case.check(case.number("L") * disc::disc(DVec3::new(0.25 * s, 0.0, s), -DVec3::Z, 0.5 * s, DVec3::Z));
     }
 }
 
@@ -188,52 +137,25 @@ fn polygon_sources() {
     }
     for case in cases("g1d.area-luminaire") {
         let sensor = case.vector("sensor");
-        let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)]
-            .map(|(x, y)| DVec3::new(x, y, 3.0) - sensor);
+        let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)].map(|(x, y)| DVec3::new(x, y, 3.0) - sensor);
         case.check(case.number("M") / PI * polygon::polygon(&corners, case.vector("normal")));
     }
-    for (prefix, normal) in [
-        ("g1i.polygon", "normal_unnormalised"),
-        ("g4g.sliver", "normal"),
-    ] {
+    for (prefix, normal) in [("g1i.polygon", "normal_unnormalised"), ("g4g.sliver", "normal")] {
         for case in cases(prefix) {
             let sensor = case.vector("sensor");
-            let corners: Vec<DVec3> = case
-                .vectors("vertices")
-                .into_iter()
-                .map(|v| v - sensor)
-                .collect();
-            case.check(
-                case.number("L") * polygon::polygon_two_sided(&corners, case.vector(normal)),
-            );
+            let corners: Vec<DVec3> = case.vectors("vertices").into_iter().map(|v| v - sensor).collect();
+            case.check(case.number("L") * polygon::polygon_two_sided(&corners, case.vector(normal)));
         }
     }
     for case in cases("g4a.scale-tri") {
         let s = case.number("scale");
-        let corners: Vec<DVec3> = case
-            .vectors("vertices_times_scale")
-            .into_iter()
-            .map(|v| v * s)
-            .collect();
-        case.check(polygon::polygon_two_sided(
-            &corners,
-            case.vector("normal_unnormalised"),
-        ));
+        let corners: Vec<DVec3> = case.vectors("vertices_times_scale").into_iter().map(|v| v * s).collect();
+        case.check(polygon::polygon_two_sided(&corners, case.vector("normal_unnormalised")));
     }
     for case in cases("g4b.offset") {
-        let (offset, sensor) = (
-            DVec3::splat(case.number("offset_each_axis_m")),
-            case.vector("sensor"),
-        );
-        let corners: Vec<DVec3> = case
-            .vectors("vertices_before_offset")
-            .into_iter()
-            .map(|v| (v + offset) - sensor)
-            .collect();
-        case.check(polygon::polygon_two_sided(
-            &corners,
-            case.vector("normal_unnormalised"),
-        ));
+        let (offset, sensor) = (DVec3::splat(case.number("offset_each_axis_m")), case.vector("sensor"));
+        let corners: Vec<DVec3> = case.vectors("vertices_before_offset").into_iter().map(|v| (v + offset) - sensor).collect();
+        case.check(polygon::polygon_two_sided(&corners, case.vector("normal_unnormalised")));
     }
 }
 
@@ -244,8 +166,7 @@ fn a_closed_octahedron_gives_pi() {
         let mut sum = 0.0;
         for octant in 0..8 {
             let sign = |bit: u32| if octant >> bit & 1 == 1 { -1.0 } else { 1.0 };
-            let corners =
-                [DVec3::X * sign(0), DVec3::Y * sign(1), DVec3::Z * sign(2)].map(|v| v - sensor);
+            let corners = [DVec3::X * sign(0), DVec3::Y * sign(1), DVec3::Z * sign(2)].map(|v| v - sensor);
             sum += polygon::polygon_two_sided(&corners, case.vector("normal_unnormalised"));
         }
         case.check(case.number("L") * sum);
@@ -274,17 +195,9 @@ fn luminance_meters() {
         let (beta, p) = (case.radians("b_deg"), case.radians("p_deg"));
         let whole = cone::projected_solid_angle(beta);
         // Bright where the direction is beyond the edge, x cos p > z sin p.
-        case.check(
-            cone::half_space_in_cone(DVec3::new(p.cos(), 0.0, -p.sin()), DVec3::Z, beta) / whole,
-        );
+        case.check(cone::half_space_in_cone(DVec3::new(p.cos(), 0.0, -p.sin()), DVec3::Z, beta) / whole);
         // The same with a rectangle that overfills the field.
-        let corners = [
-            (p.tan(), -10.0),
-            (10.0, -10.0),
-            (10.0, 10.0),
-            (p.tan(), 10.0),
-        ]
-        .map(|(x, y)| DVec3::new(x, y, 1.0));
+        let corners = [(p.tan(), -10.0), (10.0, -10.0), (10.0, 10.0), (p.tan(), 10.0)].map(|(x, y)| DVec3::new(x, y, 1.0));
         case.check(polygon_in_cone(&corners, DVec3::Z, beta) / whole);
     }
     for case in cases("g1g.disc-target") {
@@ -305,14 +218,12 @@ fn luminance_meters() {
 #[test]
 fn pairs_of_surfaces() {
     for case in cases("g1f.coax-discs") {
-        let etendue =
-            exchange::coaxial_discs(case.number("R1_m"), case.number("R2_m"), case.number("H_m"));
+        let etendue = exchange::coaxial_discs(case.number("R1_m"), case.number("R2_m"), case.number("H_m"));
         case.check(case.number("L") * etendue);
     }
     for case in cases("g1f.par-rects") {
         let (a, b, c) = (case.number("a_m"), case.number("b_m"), case.number("c_m"));
-        let rectangle =
-            |z: f64| [(0.0, 0.0), (a, 0.0), (a, b), (0.0, b)].map(|(x, y)| DVec3::new(x, y, z));
+        let rectangle = |z: f64| [(0.0, 0.0), (a, 0.0), (a, b), (0.0, b)].map(|(x, y)| DVec3::new(x, y, z));
         let etendue = exchange::polygons(&rectangle(0.0), &rectangle(c), 1e-10).unwrap();
         case.check(etendue.value / (PI * a * b));
     }

@@ -12,31 +12,14 @@ struct Fault {
 
 /// Numbers one after another. All types fit into `f64` without loss.
 enum Numbers<'a> {
-    Text {
-        rest: &'a [u8],
-        line: usize,
-        words: Vec<(usize, &'a [u8])>,
-        next: usize,
-    },
-    Binary {
-        bytes: &'a [u8],
-        at: usize,
-        last: usize,
-        big: bool,
-        header_lines: usize,
-    },
+    Text { rest: &'a [u8], line: usize, words: Vec<(usize, &'a [u8])>, next: usize },
+    Binary { bytes: &'a [u8], at: usize, last: usize, big: bool, header_lines: usize },
 }
 
 impl<'a> Numbers<'a> {
     /// Begins the next item of an element: in a text, the next line that is not empty.
     fn begin(&mut self) {
-        if let Numbers::Text {
-            rest,
-            line,
-            words: found,
-            next,
-        } = self
-        {
+        if let Numbers::Text { rest, line, words: found, next } = self {
             *next = 0;
             found.clear();
             while found.is_empty() && !rest.is_empty() {
@@ -69,26 +52,15 @@ impl<'a> Numbers<'a> {
                     });
                 };
                 *next += 1;
-                number(word)
-                    .filter(|value| !kind.is_whole() || value.fract() == 0.0)
-                    .ok_or_else(|| Fault {
-                        message: format!("{} is not a number of its type", quoted(word)),
-                        help: "the header declares the type",
-                    })
+                number(word).filter(|value| !kind.is_whole() || value.fract() == 0.0).ok_or_else(|| Fault {
+                    message: format!("{} is not a number of its type", quoted(word)),
+                    help: "the header declares the type",
+                })
             }
-            Numbers::Binary {
-                bytes,
-                at,
-                last,
-                big,
-                ..
-            } => {
+            Numbers::Binary { bytes, at, last, big, .. } => {
                 let size = kind.size();
                 let Some(raw) = bytes.get(*at..*at + size) else {
-                    return Err(Fault {
-                        message: "the file ends here".to_owned(),
-                        help: "the file is cut off, or a count is wrong",
-                    });
+                    return Err(Fault { message: "the file ends here".to_owned(), help: "the file is cut off, or a count is wrong" });
                 };
                 *last = *at;
                 *at += size;
@@ -108,21 +80,10 @@ impl<'a> Numbers<'a> {
     /// Where the last number was.
     fn place(&self) -> Place {
         match self {
-            Numbers::Text {
-                line, words, next, ..
-            } => Place::text(
-                *line,
-                words
-                    .get(next.saturating_sub(1))
-                    .map_or(1, |(column, _)| *column),
-            ),
-            Numbers::Binary {
-                last, header_lines, ..
-            } => Place {
-                line: *header_lines,
-                column: 1,
-                byte_offset: Some(*last),
-            },
+            Numbers::Text { line, words, next, .. } => {
+                Place::text(*line, words.get(next.saturating_sub(1)).map_or(1, |(column, _)| *column))
+            }
+            Numbers::Binary { last, header_lines, .. } => Place { line: *header_lines, column: 1, byte_offset: Some(*last) },
         }
     }
 }
@@ -131,14 +92,9 @@ fn binary(raw: &[u8], kind: Type, big: bool) -> f64 {
     let mut bytes = [0; 8];
     // Little end first, whatever the file says.
     if big {
-        raw.iter()
-            .rev()
-            .zip(&mut bytes)
-            .for_each(|(from, to)| *to = *from);
+        raw.iter().rev().zip(&mut bytes).for_each(|(from, to)| *to = *from);
     } else {
-        raw.iter()
-            .zip(&mut bytes)
-            .for_each(|(from, to)| *to = *from);
+        raw.iter().zip(&mut bytes).for_each(|(from, to)| *to = *from);
     }
     let word = u64::from_le_bytes(bytes);
     match kind {
@@ -162,11 +118,7 @@ enum Role {
 }
 
 fn role(element: &Element, property: &Property) -> Role {
-    match (
-        element.name.as_slice(),
-        property.name.as_slice(),
-        property.list,
-    ) {
+    match (element.name.as_slice(), property.name.as_slice(), property.list) {
         (b"vertex", b"x", None) => Role::Coordinate(0),
         (b"vertex", b"y", None) => Role::Coordinate(1),
         (b"vertex", b"z", None) => Role::Coordinate(2),
@@ -176,57 +128,23 @@ fn role(element: &Element, property: &Property) -> Role {
 }
 
 /// Reads the body into the mesh. The header has been checked.
-pub(super) fn read(
-    bytes: &[u8],
-    header: &Header,
-    mesh: &mut MeshData,
-    problems: &mut MeshProblems,
-) {
+pub(super) fn read(bytes: &[u8], header: &Header, mesh: &mut MeshData, problems: &mut MeshProblems) {
     let mut numbers = match header.format {
-        Format::Ascii => Numbers::Text {
-            rest: &bytes[header.body..],
-            line: header.lines,
-            words: Vec::new(),
-            next: 0,
-        },
-        format => Numbers::Binary {
-            bytes,
-            at: header.body,
-            last: header.body,
-            big: format == Format::Big,
-            header_lines: header.lines,
-        },
+        Format::Ascii => Numbers::Text { rest: &bytes[header.body..], line: header.lines, words: Vec::new(), next: 0 },
+        format => Numbers::Binary { bytes, at: header.body, last: header.body, big: format == Format::Big, header_lines: header.lines },
     };
-    let vertices = header
-        .elements
-        .iter()
-        .find(|element| element.name == b"vertex")
-        .map_or(0, |element| element.count);
-    for element in header
-        .elements
-        .iter()
-        .filter(|element| !element.properties.is_empty())
-    {
-        let roles: Vec<Role> = element
-            .properties
-            .iter()
-            .map(|property| role(element, property))
-            .collect();
+    let vertices = header.elements.iter().find(|element| element.name == b"vertex").map_or(0, |element| element.count);
+    for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
+        let roles: Vec<Role> = element.properties.iter().map(|property| role(element, property)).collect();
         match element.name.as_slice() {
             b"vertex" => mesh.points.reserve_exact(element.count),
             b"face" => mesh.triangles.reserve(element.count),
             _ => {}
         }
-        let mut item = Item {
-            point: [0.0; 3],
-            corners: Vec::new(),
-            vertices,
-        };
+        let mut item = Item { point: [0.0; 3], corners: Vec::new(), vertices };
         for _ in 0..element.count {
             numbers.begin();
-            let result = item
-                .read(element, &roles, &mut numbers, problems)
-                .and_then(|()| numbers.end());
+            let result = item.read(element, &roles, &mut numbers, problems).and_then(|()| numbers.end());
             if let Err(Fault { message, help }) = result {
                 problems.push(numbers.place(), || message, help);
                 // A text goes on at its next line; binary numbers have lost their place.
@@ -237,11 +155,7 @@ pub(super) fn read(
             match element.name.as_slice() {
                 b"vertex" => mesh.points.push(DVec3::from_array(item.point)),
                 b"face" if mesh.triangles.len() + item.corners.len() > ELEMENT_LIMIT => {
-                    problems.push(
-                        numbers.place(),
-                        || format!("more than {ELEMENT_LIMIT} triangles"),
-                        "divide the mesh",
-                    );
+                    problems.push(numbers.place(), || format!("more than {ELEMENT_LIMIT} triangles"), "divide the mesh");
                     return;
                 }
                 b"face" if problems.is_empty() => push_fan(&item.corners, &mut mesh.triangles),
@@ -250,11 +164,7 @@ pub(super) fn read(
         }
     }
     if problems.is_empty() && mesh.triangles.is_empty() {
-        problems.push(
-            Place::text(header.lines, 1),
-            || "the file has no faces".to_owned(),
-            "the element face has a count above 0",
-        );
+        problems.push(Place::text(header.lines, 1), || "the file has no faces".to_owned(), "the element face has a count above 0");
     }
 }
 
@@ -265,13 +175,7 @@ struct Item {
 }
 
 impl Item {
-    fn read(
-        &mut self,
-        element: &Element,
-        roles: &[Role],
-        numbers: &mut Numbers,
-        problems: &mut MeshProblems,
-    ) -> Result<(), Fault> {
+    fn read(&mut self, element: &Element, roles: &[Role], numbers: &mut Numbers, problems: &mut MeshProblems) -> Result<(), Fault> {
         self.corners.clear();
         for (property, role) in element.properties.iter().zip(roles) {
             let Some(length) = property.list else {
@@ -279,11 +183,7 @@ impl Item {
                 if let Role::Coordinate(axis) = role {
                     self.point[*axis] = value;
                     if !value.is_finite() {
-                        problems.push(
-                            numbers.place(),
-                            || "a coordinate is not finite".to_owned(),
-                            "coordinates are finite numbers",
-                        );
+                        problems.push(numbers.place(), || "a coordinate is not finite".to_owned(), "coordinates are finite numbers");
                     }
                 }
                 continue;
@@ -310,11 +210,7 @@ impl Item {
                 }
             }
             if *role == Role::Corners && self.corners.len() < 3 {
-                problems.push(
-                    numbers.place(),
-                    || format!("a face with {length} corners"),
-                    "a face has at least three corners",
-                );
+                problems.push(numbers.place(), || format!("a face with {length} corners"), "a face has at least three corners");
             }
         }
         Ok(())

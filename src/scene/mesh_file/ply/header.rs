@@ -79,8 +79,7 @@ pub(super) struct Header {
     pub(super) lines: usize,
 }
 
-const TYPES: &str =
-    "types are char, uchar, short, ushort, int, uint, float, double, or int8 ... float64";
+const TYPES: &str = "types are char, uchar, short, ushort, int, uint, float, double, or int8 ... float64";
 
 /// Reads and checks the header; `None` if it has no end or no format.
 pub(super) fn read(bytes: &[u8], problems: &mut MeshProblems) -> Option<Header> {
@@ -125,10 +124,7 @@ pub(super) fn read(bytes: &[u8], problems: &mut MeshProblems) -> Option<Header> 
                 }
             }
             [b"element", name, count] => {
-                let number = std::str::from_utf8(count)
-                    .ok()
-                    .and_then(|count| count.parse().ok())
-                    .filter(|&count| count <= ELEMENT_LIMIT);
+                let number = std::str::from_utf8(count).ok().and_then(|count| count.parse().ok()).filter(|&count| count <= ELEMENT_LIMIT);
                 if number.is_none() {
                     problems.push(
                         here(words[2].0),
@@ -137,71 +133,35 @@ pub(super) fn read(bytes: &[u8], problems: &mut MeshProblems) -> Option<Header> 
                     );
                 }
                 if elements.iter().any(|element| element.name == *name) {
-                    problems.push(
-                        here(words[1].0),
-                        || format!("a second element {}", quoted(name)),
-                        "each element is declared once",
-                    );
+                    problems.push(here(words[1].0), || format!("a second element {}", quoted(name)), "each element is declared once");
                 }
-                elements.push(Element {
-                    name: name.to_vec(),
-                    count: number.unwrap_or(0),
-                    properties: Vec::new(),
-                    place: here(1),
-                });
+                elements.push(Element { name: name.to_vec(), count: number.unwrap_or(0), properties: Vec::new(), place: here(1) });
             }
             [b"property", rest @ ..] => {
                 let (list, item, name) = match rest {
                     [b"list", length, item, name] => (Some(*length), *item, *name),
                     [item, name] => (None, *item, *name),
                     _ => {
-                        problems.push(
-                            here(1),
-                            || "not a property".to_owned(),
-                            "property TYPE NAME, or property list TYPE TYPE NAME",
-                        );
+                        problems.push(here(1), || "not a property".to_owned(), "property TYPE NAME, or property list TYPE TYPE NAME");
                         continue;
                     }
                 };
-                let unknown = [list, Some(item)]
-                    .into_iter()
-                    .flatten()
-                    .find(|word| Type::named(word).is_none());
+                let unknown = [list, Some(item)].into_iter().flatten().find(|word| Type::named(word).is_none());
                 if let Some(word) = unknown {
-                    problems.push(
-                        here(words[1].0),
-                        || format!("unknown type {}", quoted(word)),
-                        TYPES,
-                    );
+                    problems.push(here(words[1].0), || format!("unknown type {}", quoted(word)), TYPES);
                 }
                 let list = list.and_then(Type::named);
                 if list.is_some_and(|list| !list.is_whole()) {
-                    problems.push(
-                        here(words[2].0),
-                        || "the length of a list is not a whole number".to_owned(),
-                        TYPES,
-                    );
+                    problems.push(here(words[2].0), || "the length of a list is not a whole number".to_owned(), TYPES);
                 }
                 match (elements.last_mut(), Type::named(item)) {
-                    (Some(element), Some(item)) => element.properties.push(Property {
-                        name: name.to_vec(),
-                        list,
-                        item,
-                    }),
-                    (None, _) => problems.push(
-                        here(1),
-                        || "a property above the first element".to_owned(),
-                        "declare its element first",
-                    ),
+                    (Some(element), Some(item)) => element.properties.push(Property { name: name.to_vec(), list, item }),
+                    (None, _) => problems.push(here(1), || "a property above the first element".to_owned(), "declare its element first"),
                     (_, None) => {}
                 }
             }
             _ if length.is_none() => {
-                problems.push(
-                    here(1),
-                    || "the header does not end".to_owned(),
-                    "a line end_header closes the header",
-                );
+                problems.push(here(1), || "the header does not end".to_owned(), "a line end_header closes the header");
                 return None;
             }
             [first, ..] => problems.push(
@@ -211,11 +171,7 @@ pub(super) fn read(bytes: &[u8], problems: &mut MeshProblems) -> Option<Header> 
             ),
         }
         if length.is_none() {
-            problems.push(
-                here(1),
-                || "the header does not end".to_owned(),
-                "a line end_header closes the header",
-            );
+            problems.push(here(1), || "the header does not end".to_owned(), "a line end_header closes the header");
             return None;
         }
     }
@@ -227,12 +183,7 @@ pub(super) fn read(bytes: &[u8], problems: &mut MeshProblems) -> Option<Header> 
         );
         return None;
     };
-    let header = Header {
-        format,
-        elements,
-        body: at,
-        lines: line_number,
-    };
+    let header = Header { format, elements, body: at, lines: line_number };
     check(&header, bytes.len() - at, problems);
     Some(header)
 }
@@ -241,11 +192,7 @@ pub(super) fn read(bytes: &[u8], problems: &mut MeshProblems) -> Option<Header> 
 fn check(header: &Header, body_length: usize, problems: &mut MeshProblems) {
     let end = Place::text(header.lines, 1);
     for name in ["vertex", "face"] {
-        if !header
-            .elements
-            .iter()
-            .any(|element| element.name == name.as_bytes())
-        {
+        if !header.elements.iter().any(|element| element.name == name.as_bytes()) {
             problems.push(
                 end,
                 || format!("no element {name:?}"),
@@ -254,24 +201,12 @@ fn check(header: &Header, body_length: usize, problems: &mut MeshProblems) {
         }
     }
     for element in &header.elements {
-        let has = |name: &[u8], list: bool| {
-            element
-                .properties
-                .iter()
-                .filter(|p| p.name == name && p.list.is_some() == list)
-                .count()
-        };
-        if element.name == b"vertex" && [b"x", b"y", b"z"].iter().any(|name| has(*name, false) != 1)
-        {
-            problems.push(
-                element.place,
-                || "a vertex needs x, y and z, each once".to_owned(),
-                "property float x",
-            );
+        let has = |name: &[u8], list: bool| element.properties.iter().filter(|p| p.name == name && p.list.is_some() == list).count();
+        if element.name == b"vertex" && [b"x", b"y", b"z"].iter().any(|name| has(*name, false) != 1) {
+            problems.push(element.place, || "a vertex needs x, y and z, each once".to_owned(), "property float x");
         }
         let lists = || element.properties.iter().filter(|p| is_corners(p));
-        if element.name == b"face" && (lists().count() != 1 || lists().any(|p| !p.item.is_whole()))
-        {
+        if element.name == b"face" && (lists().count() != 1 || lists().any(|p| !p.item.is_whole())) {
             problems.push(
                 element.place,
                 || "a face needs one list of vertices of a whole number type".to_owned(),
@@ -284,16 +219,16 @@ fn check(header: &Header, body_length: usize, problems: &mut MeshProblems) {
         let smallest: usize = match header.format {
             // A digit and a blank for each number.
             Format::Ascii => 2 * element.properties.len(),
-            _ => element
-                .properties
-                .iter()
-                .map(|p| p.list.unwrap_or(p.item).size())
-                .sum(),
+            _ => element.properties.iter().map(|p| p.list.unwrap_or(p.item).size()).sum(),
         };
         needed = needed.saturating_add(smallest.saturating_mul(element.count));
         // The last blank of a text may be missing.
         if needed > body_length + 1 {
-            problems.push(element.place, || format!("at least {needed} bytes are announced, but only {body_length} follow the header"), "the file is cut off, or the count is wrong");
+            problems.push(
+                element.place,
+                || format!("at least {needed} bytes are announced, but only {body_length} follow the header"),
+                "the file is cut off, or the count is wrong",
+            );
             break;
         }
     }
@@ -301,6 +236,5 @@ fn check(header: &Header, body_length: usize, problems: &mut MeshProblems) {
 
 /// Whether a property is the list of a face's corners.
 pub(super) fn is_corners(property: &Property) -> bool {
-    property.list.is_some()
-        && (property.name == b"vertex_indices" || property.name == b"vertex_index")
+    property.list.is_some() && (property.name == b"vertex_indices" || property.name == b"vertex_index")
 }
