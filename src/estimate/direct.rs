@@ -12,12 +12,13 @@ use multiversion::multiversion;
 
 use super::deterministic::at_point;
 use super::job::Piece;
+use super::lanes::each_sixteen;
 use super::light::Lights;
 use super::receiver::Receiver;
 use super::{Counters, REPLICATES};
 use crate::geometry::rays::{LANES, Rays};
 use crate::geometry::world::World;
-use crate::math::random::{Stream, four_in_lanes};
+use crate::math::random::Stream;
 use crate::plan::choose::{Formula, formula};
 use crate::plan::{Term, Visibility};
 use crate::scene::Scene;
@@ -111,23 +112,17 @@ fn each_connection(
     world: &World,
     receiver: &Receiver<'_>,
     streams: &[Stream],
-    (first, count): (u32, u32),
+    range: (u32, u32),
     mut take: impl FnMut(usize, f64, bool),
 ) {
-    let items = count as usize * streams.len();
     let mut rays = Rays::none();
     rays.leaving = [receiver.resting_on; LANES];
     rays.leaving_part = [receiver.resting_part; LANES];
     let mut g = [0.0; LANES];
-    for start in (0..items).step_by(LANES) {
-        let lanes = LANES.min(items - start);
+    each_sixteen(streams, range, |points| {
+        let u = &points.u;
         rays.active = [false; LANES];
-        let mut u = [[0.0; LANES]; 4];
-        let item = |lane: usize| start + lane.min(lanes - 1);
-        let chosen = std::array::from_fn(|lane| streams[item(lane) % streams.len()]);
-        let indices = std::array::from_fn(|lane| first + (item(lane) / streams.len()) as u32);
-        four_in_lanes(&chosen, &indices, &[0; LANES], &mut u);
-        for lane in 0..lanes {
+        for lane in 0..points.lanes {
             let at = receiver.point([u[2][lane], u[3][lane]]);
             let light = job.lights.sample(at, [u[0][lane], u[1][lane]]);
             let cosine = receiver.pose.normal.dot(light.to);
@@ -140,10 +135,10 @@ fn each_connection(
             rays.arriving_part[lane] = light.part;
         }
         let blocked = if job.tested { world.blocked(&rays) } else { [false; LANES] };
-        for lane in 0..lanes {
-            take((start + lane) % streams.len(), g[lane], !blocked[lane]);
+        for lane in 0..points.lanes {
+            take(points.replicate[lane], g[lane], !blocked[lane]);
         }
-    }
+    });
 }
 
 /// One connection to a source without extent, from a point: exact but for what stands in the way. Returns g V and the rays traced.

@@ -14,7 +14,7 @@
 //! | `direct.rs` | direct light of a source that may be hidden |
 //! | `sky.rs` | direct light of an environment that may be hidden |
 //! | `paths/` | reflected light |
-//! | `job.rs` | what these three have in common |
+//! | `job.rs`, `lanes.rs` | what these three have in common |
 //! | `task.rs` | what is to be done for an instrument |
 //! | `campaign.rs` | how many samples for which job: the stopping rule |
 //! | `run.rs` | threads |
@@ -27,6 +27,7 @@ pub mod closed_form;
 mod deterministic;
 mod direct;
 mod job;
+mod lanes;
 mod light;
 mod paths;
 mod receiver;

@@ -10,12 +10,13 @@ use std::f64::consts::PI;
 use multiversion::multiversion;
 
 use super::job::Piece;
+use super::lanes::each_sixteen;
 use super::receiver::Receiver;
 use super::{Counters, REPLICATES};
 use crate::geometry::rays::{LANES, Rays};
 use crate::geometry::world::World;
 use crate::math::frame::world_from_local;
-use crate::math::random::{Stream, four_in_lanes};
+use crate::math::random::Stream;
 use crate::math::sample::sample_cosine_cone;
 
 /// Directions of the pilot run.
@@ -55,36 +56,24 @@ pub(super) fn sample(world: &World, receiver: &Receiver<'_>, stream: Stream, (fi
 }
 
 #[inline(always)]
-fn each_direction(
-    world: &World,
-    receiver: &Receiver<'_>,
-    streams: &[Stream],
-    (first, count): (u32, u32),
-    mut take: impl FnMut(usize, f64, bool),
-) {
-    let items = count as usize * streams.len();
+fn each_direction(world: &World, receiver: &Receiver<'_>, streams: &[Stream], range: (u32, u32), mut take: impl FnMut(usize, f64, bool)) {
     let mut rays = Rays::none();
     rays.leaving = [receiver.resting_on; LANES];
     rays.leaving_part = [receiver.resting_part; LANES];
     let full = PI * receiver.sine_limit * receiver.sine_limit;
-    for start in (0..items).step_by(LANES) {
-        let lanes = LANES.min(items - start);
+    each_sixteen(streams, range, |points| {
+        let u = &points.u;
         rays.active = [false; LANES];
-        let mut u = [[0.0; LANES]; 4];
-        let item = |lane: usize| start + lane.min(lanes - 1);
-        let chosen = std::array::from_fn(|lane| streams[item(lane) % streams.len()]);
-        let indices = std::array::from_fn(|lane| first + (item(lane) / streams.len()) as u32);
-        four_in_lanes(&chosen, &indices, &[0; LANES], &mut u);
-        for lane in 0..lanes {
+        for lane in 0..points.lanes {
             let direction = world_from_local(receiver.pose.normal, sample_cosine_cone([u[0][lane], u[1][lane]], receiver.sine_limit));
             rays.active[lane] = true;
             rays.origin.set(lane, receiver.point([u[2][lane], u[3][lane]]));
             rays.direction.set(lane, direction);
         }
         let blocked = world.blocked(&rays);
-        for lane in 0..lanes {
+        for lane in 0..points.lanes {
             let w = full * receiver.response(rays.direction.get(lane));
-            take((start + lane) % streams.len(), w, !blocked[lane]);
+            take(points.replicate[lane], w, !blocked[lane]);
         }
-    }
+    });
 }

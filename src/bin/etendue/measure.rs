@@ -19,10 +19,10 @@ pub(crate) struct Arguments {
     /// The scene file.
     scene: String,
     /// Stop when the expanded uncertainty (95 %) is at most this share of each reading, e.g. 0.1% or 0.001 [default: 1%].
-    #[arg(long, value_name = "SHARE", value_parser = share, conflicts_with = "samples")]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true, conflicts_with = "samples")]
     target: Option<f64>,
     /// Start no further round of samples after this time, e.g. 2s, 500ms or 1min.
-    #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with = "samples")]
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, conflicts_with = "samples")]
     budget: Option<f64>,
     /// Take this many samples for each sampled contribution, rounded up to 16 times a power of two.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=(1 << 32)))]

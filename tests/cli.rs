@@ -1,0 +1,144 @@
+//! The command line as a user meets it: what is on stdout, what is on stderr, and the exit code.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn etendue(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_etendue")).args(arguments).current_dir(root()).output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// A folder of its own for files that a test writes.
+fn scratch(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[test]
+fn a_good_scene_is_ok() {
+    let output = etendue(&["check", "scenes/photometric-bench.ron"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stdout(&output).starts_with("ok: 1 source"));
+    assert!(stderr(&output).is_empty());
+}
+
+#[test]
+fn a_reading_has_value_unit_uncertainty_and_coverage_factor() {
+    let output = etendue(&["measure", "scenes/photometric-bench.ron"]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = stdout(&output);
+    let row = text.lines().find(|l| l.contains("meter [1]")).unwrap();
+    for part in ["illuminance", " 250 ", "lx", "±", "1.96"] {
+        assert!(row.contains(part), "no `{part}` in {row}");
+    }
+    assert!(text.contains("0 samples, 0 rays, 0 BVH nodes"), "{text}");
+}
+
+#[test]
+fn bad_input_is_told_on_stderr_with_exit_code_two_and_nothing_is_written() {
+    let folder = scratch("bad-input");
+    let scene = folder.join("broken.ron");
+    std::fs::write(&scene, "Scene(\n    sources: [(name: \"lamp\", shape: Pont, strength: Candela(-1), spectrum: \"A\")],\n)\n").unwrap();
+    let out = folder.join("out");
+    let path = scene.to_str().unwrap();
+    for arguments in [vec!["check", path], vec!["explain", path], vec!["measure", path, "--out", out.to_str().unwrap()]] {
+        let output = etendue(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+        let message = stderr(&output);
+        for part in ["broken.ron:2:", "`Pont`", "did you mean `Point`?", "instruments"] {
+            assert!(message.contains(part), "no `{part}` in\n{message}");
+        }
+    }
+    assert!(!out.exists());
+}
+
+#[test]
+fn bad_arguments_are_told_with_exit_code_two() {
+    let scene = "scenes/photometric-bench.ron";
+    for (arguments, part) in [
+        (vec!["measure"], "SCENE"),
+        (vec!["measure", scene, "--target", "-1%"], "a positive share such as 0.1%"),
+        (vec!["measure", scene, "--budget", "2"], "a positive time with its unit"),
+        (vec!["measure", scene, "--samples", "0"], "0"),
+        (vec!["measure", scene, "--samples", "10", "--target", "1%"], "cannot be used with"),
+        (vec!["measure", scene, "--format", "xml"], "json"),
+        (vec!["measur", scene], "measure"),
+        (vec!["explain", scene, "--without", "nothing_block"], "nothing_blocks"),
+        (vec!["check", "scenes/photometric-bank.ron"], "photometric-bench.ron"),
+    ] {
+        let output = etendue(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(part), "{arguments:?}: no `{part}` in\n{}", stderr(&output));
+    }
+}
+
+#[test]
+fn light_that_is_never_absorbed_fails_with_exit_code_one() {
+    let folder = scratch("endless");
+    let scene = folder.join("perfect.ron");
+    let walls = [
+        ("a", "(0, 0, 0)", "(1, 0, 0)", "(0, 1, 0)"),
+        ("b", "(0, 0, 1)", "(1, 0, 0)", "(0, 1, 0)"),
+        ("c", "(0, 0, 0)", "(1, 0, 0)", "(0, 0, 1)"),
+        ("d", "(0, 1, 0)", "(1, 0, 0)", "(0, 0, 1)"),
+        ("e", "(0, 0, 0)", "(0, 1, 0)", "(0, 0, 1)"),
+        ("f", "(1, 0, 0)", "(0, 1, 0)", "(0, 0, 1)"),
+    ]
+    .map(|(name, c, u, v)| format!("(name: \"{name}\", shape: Quad(corner: {c}, u: {u}, v: {v}), surface: \"white\")"))
+    .join(", ");
+    let text = format!(
+        "Scene(surfaces: {{ \"white\": Lambertian(1.0) }}, objects: [{walls}], \
+         sources: [(name: \"lamp\", shape: Point, at: (0.5, 0.5, 0.5), strength: Candela(1), spectrum: \"A\")], \
+         instruments: [(name: \"m\", at: (0.2, 0.2, 0.2), facing: (0, 0, 1), sensor: Sensor(title: \"i\", aperture: Point, \
+         acceptance: Cosine, channels: [(name: \"E\", responsivity: \"V\", reads: Illuminance)]))])"
+    );
+    std::fs::write(&scene, text).unwrap();
+    let output = etendue(&["measure", scene.to_str().unwrap()]);
+    assert!(matches!(output.status.code(), Some(1 | 2)), "{:?}", output.status);
+    assert!(output.stdout.is_empty());
+    assert!(stderr(&output).contains("reflectance"), "{}", stderr(&output));
+}
+
+#[test]
+fn files_are_written_whole_and_say_where() {
+    let folder = scratch("out");
+    for (format, extension, part) in
+        [("json", "json", "\"expanded_uncertainty\""), ("csv", "csv", "expanded_uncertainty"), ("text", "txt", "±")]
+    {
+        let output = etendue(&["measure", "scenes/photometric-bench.ron", "--format", format, "--out", folder.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let path = folder.join("photometric-bench").with_extension(extension);
+        assert_eq!(stdout(&output).trim(), path.to_str().unwrap());
+        assert!(std::fs::read_to_string(path).unwrap().contains(part));
+    }
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 3, "nothing half-written is left behind");
+}
+
+#[test]
+fn the_json_is_the_same_for_any_number_of_threads() {
+    let of = |threads: &str| {
+        let output = etendue(&["measure", "scenes/cornell-box.ron", "--format", "json", "--seed", "5", "--threads", threads]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stdout(&output).lines().filter(|l| !l.contains("seconds\"")).map(|l| format!("{l}\n")).collect::<String>()
+    };
+    let one = of("1");
+    assert!(one.contains("\"samples\"") && one.contains("\"schema\": 1"));
+    assert_eq!(one, of("2"));
+    assert_eq!(one, of("8"));
+}
