@@ -29,6 +29,8 @@ const TRIAL_RATIO: f64 = 2.0;
 const UPPER_SPREAD: f64 = 2.0;
 /// Points of all replicates in one piece of work.
 const PIECE: u32 = 16_384;
+/// Pieces of work whose sums are held at once.
+const PORTION: usize = 1024;
 /// Poses that are estimated together; bounds the memory for sums.
 const BATCH: usize = 2048;
 /// Samples a job and pose at which a target is given up, for one pose and for many.
@@ -144,8 +146,16 @@ impl Batch<'_> {
                 first += count;
             }
         }
+        // In portions, so that the sums of a long round need not all be held at once; the order stays that of the work.
+        for portion in work.chunks(PORTION) {
+            self.sample_portion(states, portion)?;
+        }
+        Ok(())
+    }
+
+    fn sample_portion(&self, states: &mut [PoseState<'_>], work: &[Work]) -> Result<(), EstimateError> {
         let shared: &[PoseState<'_>] = states;
-        let pieces = in_order(&work, |w| {
+        let pieces = in_order(work, |w| {
             let state = &shared[w.slot];
             let stream = self.task.stream(self.seed, state.pose, w.job).child(state.standing as u64);
             let job = &self.task.jobs[w.job].0;

@@ -147,10 +147,10 @@ pub(super) fn connection(scene: &Scene, world: &World, receiver: &Receiver<'_>, 
     if !tested || g <= 0.0 {
         return (g, 0);
     }
-    let light = Lights::new(scene, [(source, 0, 1.0)]).sample(receiver.pose.at, [0.5, 0.5]);
+    let light = Lights::new(scene, [(source, 0, 1.0)]).sample(receiver.centre(), [0.5, 0.5]);
     let mut rays = Rays::none();
     rays.active[0] = true;
-    rays.origin.set(0, receiver.pose.at);
+    rays.origin.set(0, receiver.centre());
     rays.direction.set(0, light.to);
     rays.t_end[0] = light.t_end;
     rays.leaving[0] = receiver.resting_on;

@@ -13,43 +13,52 @@ use crate::sensor::{Acceptance, Aperture, Sensor};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Receiver<'a> {
     pub(super) pose: Pose,
+    /// Where its rays start: the centre of the aperture, off every surface that it lies on.
+    at: DVec3,
     y_axis: DVec3,
     pub(super) acceptance: &'a Acceptance,
     pub(super) aperture: Aperture,
     /// Sine of the angle beyond which nothing is accepted.
     pub(super) sine_limit: f64,
-    /// The element on which the aperture lies, if any: rays do not meet it where they start.
+    /// The mesh on which the aperture lies, if any: rays do not meet it where they start.
     pub(super) resting_on: u32,
-    /// The triangle of that element.
+    /// The triangle of that mesh.
     pub(super) resting_part: u32,
 }
 
 impl<'a> Receiver<'a> {
-    pub(super) fn new(scene: &Scene, sensor: &'a Sensor, pose: Pose) -> Receiver<'a> {
-        let (resting_on, resting_part) = resting_place(scene, &pose);
+    /// `traced`: whether rays will start here; what the aperture lies on matters only to them.
+    pub(super) fn new(scene: &Scene, sensor: &'a Sensor, pose: Pose, traced: bool) -> Receiver<'a> {
+        let place = if traced { Start::of(scene, &pose) } else { Start { at: pose.at, mesh: NONE, triangle: NONE } };
         let limit = sensor.acceptance.limit_rad();
         Receiver {
             pose,
+            at: place.at,
             y_axis: pose.y_axis(),
             acceptance: &sensor.acceptance,
             aperture: sensor.aperture,
             sine_limit: if limit >= 0.5 * PI { 1.0 } else { limit.sin() },
-            resting_on,
-            resting_part,
+            resting_on: place.mesh,
+            resting_part: place.triangle,
         }
+    }
+
+    /// The centre of the aperture, where rays start.
+    pub(super) fn centre(&self) -> DVec3 {
+        self.at
     }
 
     /// A point of the aperture, uniformly over its area: readings are means over the aperture, so the weight is one.
     #[inline(always)]
     pub(super) fn point(&self, u: [f64; 2]) -> DVec3 {
         match self.aperture {
-            Aperture::Point => self.pose.at,
+            Aperture::Point => self.at,
             Aperture::Disc { radius_m } => {
                 let [a, b] = sample_disc(u);
-                self.pose.at + radius_m * (self.pose.x_axis * a + self.y_axis * b)
+                self.at + radius_m * (self.pose.x_axis * a + self.y_axis * b)
             }
             Aperture::Rectangle { half_width_m, half_height_m } => {
-                self.pose.at + self.pose.x_axis * (half_width_m * (2.0 * u[0] - 1.0)) + self.y_axis * (half_height_m * (2.0 * u[1] - 1.0))
+                self.at + self.pose.x_axis * (half_width_m * (2.0 * u[0] - 1.0)) + self.y_axis * (half_height_m * (2.0 * u[1] - 1.0))
             }
         }
     }
@@ -72,34 +81,61 @@ impl<'a> Receiver<'a> {
     }
 }
 
-/// The element that holds the centre of the aperture, to 1e-9 of its size.
-fn resting_place(scene: &Scene, pose: &Pose) -> (u32, u32) {
-    for (e, element) in scene.elements.iter().enumerate() {
-        let (_, size) = element.shape.bounding_sphere();
-        let slack = 1e-9 * size;
-        let near = match &element.shape {
-            Shape::Rectangle(r) => {
-                let to = pose.at - r.centre;
-                let inside = |half: DVec3| to.dot(half.normalize()).abs() <= half.length() + slack;
-                r.normal().dot(to).abs() <= slack && inside(r.half_u) && inside(r.half_v)
-            }
-            Shape::Polygon(p) => (pose.at - p.nearest_point(pose.at)).length() <= slack,
-            Shape::Disc(d) => {
-                let to = pose.at - d.centre;
-                d.normal.dot(to).abs() <= slack && to.length() <= d.radius_m + slack
-            }
-            Shape::Sphere(s) => ((pose.at - s.centre).length() - s.radius_m).abs() <= slack,
-            Shape::Mesh(m) => {
-                // The last triangle behind the aperture, if it is close enough to be the one it lies on.
+/// Share of an element's size within which the aperture counts as lying on it.
+const TOUCHING: f64 = 1e-9;
+
+/// Where rays start.
+struct Start {
+    at: DVec3,
+    mesh: u32,
+    triangle: u32,
+}
+
+impl Start {
+    /// The centre of the aperture, moved off every surface that it lies on by twice the distance at which it counts as lying on it.
+    ///
+    /// A meter on a floor does not see it, one that stands upright on it or in a corner does, at no distance. It is moved to the side that
+    /// it faces, or, where it faces along the surface, to the side on which the rest of the scene is. Meshes are coarser than
+    /// that: there the triangle that rays start from is named.
+    fn of(scene: &Scene, pose: &Pose) -> Start {
+        let mut start = Start { at: pose.at, mesh: NONE, triangle: NONE };
+        let n = scene.elements.len().max(1) as f64;
+        let middle = scene.elements.iter().map(|e| e.shape.bounding_sphere().0 / n).sum::<DVec3>();
+        for (e, element) in scene.elements.iter().enumerate() {
+            let slack = TOUCHING * element.shape.bounding_sphere().1 + 4.0 * f64::EPSILON * pose.at.length();
+            let Some(normal) = touching(&element.shape, pose, slack) else { continue };
+            if let Shape::Mesh(m) = &element.shape {
                 if let Some(hit) = m.closest(pose.at + slack * pose.normal, -pose.normal, 2.0 * slack, None) {
-                    return (e as u32, hit.triangle);
+                    (start.mesh, start.triangle) = (e as u32, hit.triangle);
                 }
-                false
+                continue;
             }
-        };
-        if near {
-            return (e as u32, NONE);
+            let faces = pose.normal.dot(normal);
+            let towards = if faces.abs() > 1e-6 { faces } else { normal.dot(middle - pose.at) };
+            start.at += normal * (2.0 * slack).copysign(towards);
         }
+        start
     }
-    (NONE, NONE)
+}
+
+/// The normal of a shape where the centre of the aperture lies on it.
+fn touching(shape: &Shape, pose: &Pose, slack: f64) -> Option<DVec3> {
+    let (on, normal) = match shape {
+        Shape::Rectangle(r) => {
+            let to = pose.at - r.centre;
+            let inside = |half: DVec3| to.dot(half.normalize()).abs() <= half.length() + slack;
+            (r.normal().dot(to).abs() <= slack && inside(r.half_u) && inside(r.half_v), r.normal())
+        }
+        Shape::Polygon(p) => ((pose.at - p.nearest_point(pose.at)).length() <= slack, p.normal()),
+        Shape::Disc(d) => {
+            let to = pose.at - d.centre;
+            (d.normal.dot(to).abs() <= slack && to.length() <= d.radius_m + slack, d.normal)
+        }
+        Shape::Sphere(s) => {
+            let to = pose.at - s.centre;
+            ((to.length() - s.radius_m).abs() <= slack, to.normalize_or_zero())
+        }
+        Shape::Mesh(_) => (true, pose.normal),
+    };
+    on.then_some(normal)
 }

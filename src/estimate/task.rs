@@ -116,7 +116,7 @@ impl<'a> Task<'a> {
     pub(super) fn start(&self, pose: usize) -> PoseState<'a> {
         let channels = self.instrument.sensor.channels.len();
         let place = self.instrument.poses[pose];
-        let receiver = Receiver::new(self.scene, &self.instrument.sensor, place);
+        let receiver = Receiver::new(self.scene, &self.instrument.sensor, place, !self.world.is_empty());
         let mut active: Vec<bool> = (0..self.jobs.len()).map(|j| j < self.certain).collect();
         let mut sums = vec![CompensatedSum::new(); channels];
         let mut exact = vec![Exact::default(); channels];
