@@ -69,7 +69,12 @@ fn plan_instrument(scene: &Scene, plan: &Plan, instrument: usize) -> Option<Spec
         }
     }
     let reflectances: Vec<&Factor> = scene.surfaces.iter().map(|s| &s.reflectance).collect();
-    let nodes = SpectralNodes::compile(&terms, &reflectances, MAX_NODES, TARGET_RESIDUAL);
+    // Paints that cover nothing need no nodes.
+    let mut used: Vec<usize> = scene.elements.iter().flat_map(|e| [e.front, e.back]).collect();
+    used.sort_unstable();
+    used.dedup();
+    let in_use: Vec<&Factor> = used.iter().map(|&s| reflectances[s]).collect();
+    let nodes = SpectralNodes::compile(&terms, &in_use, MAX_NODES, TARGET_RESIDUAL);
     let weights = channels
         .iter()
         .enumerate()

@@ -31,6 +31,8 @@ pub(super) struct Placement<'a> {
     terms: usize,
     tests: &'a TestProducts<'a>,
     intervals: Vec<Interval>,
+    /// What an error of each product, term by term, is as a share of a reading: see [`Placement::residuals`].
+    shares: Vec<f64>,
 }
 
 impl<'a> Placement<'a> {
@@ -46,7 +48,7 @@ impl<'a> Placement<'a> {
             found.map_or(points[0].nm, |point| point.nm)
         };
         let (from_nm, to_nm) = (end(true), end(false));
-        let mut placement = Self { points, terms, tests, intervals: Vec::new() };
+        let mut placement = Self { points, terms, tests, intervals: Vec::new(), shares: shares(points, terms, tests) };
         // A single line leaves no width between the ends; the neighbouring f64 makes it an interval.
         let to_nm = if from_nm < to_nm { to_nm } else { from_nm.next_up() };
         placement.intervals.push(placement.interval(from_nm, to_nm, 0..points.len()));
@@ -152,16 +154,40 @@ impl<'a> Placement<'a> {
         wavelengths
     }
 
-    /// The largest sums of errors over the intervals: with `P_max`, and relative to it.
+    /// The largest sums of errors over the intervals: as a share of a reading, and relative to `P_max`.
     /// See [`SpectralNodes::residual`](super::quadrature::SpectralNodes::residual).
     pub(super) fn residuals(&self) -> (f64, f64) {
-        let count = self.tests.products().len();
         let mut largest = (0.0_f64, 0.0_f64);
-        for index in 0..self.terms * count {
+        for (index, share) in self.shares.iter().enumerate() {
             let error = self.intervals.iter().map(|interval| interval.errors[index]).sum::<f64>().abs();
-            largest.0 = largest.0.max(error * self.tests.brightest()[index % count]);
+            // No light and no error is no share, however it is counted.
+            largest.0 = largest.0.max(if error > 0.0 { error * share } else { 0.0 });
             largest.1 = largest.1.max(error);
         }
         largest
     }
+}
+
+/// For each term and product: `P_max` over the smallest single reflection of its members, `ρ_max ∫ L s ρ̂ dλ`.
+///
+/// Whoever sees a path of many reflections sees its surfaces by one reflection as well, and that light is the scale of the reading: a
+/// dark paint is measured against the light from a dark paint.
+fn shares(points: &[Point], terms: usize, tests: &TestProducts<'_>) -> Vec<f64> {
+    let (count, singles) = (tests.products().len(), tests.singles());
+    let mut light = vec![0.0; terms * singles];
+    for (index, point) in points.iter().enumerate() {
+        let row = &mut light[point.term * singles..][..singles];
+        for (sum, value) in row.iter_mut().zip(tests.at_point(index)) {
+            *sum += point.weight * value;
+        }
+    }
+    (0..terms * count)
+        .map(|index| {
+            let (term, product) = (index / count, index % count);
+            let single = |member: &usize| tests.brightest()[*member] * light[term * singles + member];
+            // A surface that reflects nothing of this term is not seen by it.
+            let smallest = tests.members(product).iter().map(single).filter(|light| *light > 0.0).fold(f64::INFINITY, f64::min);
+            tests.brightest()[product] / smallest
+        })
+        .collect()
 }

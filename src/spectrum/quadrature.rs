@@ -70,16 +70,16 @@ impl SpectralNodes {
         &self.wavelengths_nm
     }
 
-    /// Largest error over the terms and the test products P of one to eight reflectances, relative to the term without reflection:
-    /// `|Σ wₖ P(λₖ) − ∫ L s P dλ| / ∫ L s dλ`. Half of the products take no part in placing the nodes. It is found by trial on samples
-    /// of products, so it is an estimate and not a bound.
+    /// Largest error over the terms and the test products P of one to eight reflectances, as a share of the reading of whoever sees them:
+    /// `|Σ wₖ P(λₖ) − ∫ L s P dλ| / ∫ L s ρ dλ` with the ρ in P that reflects least. A single reflection is so measured against its own
+    /// light, and the brightness of the paints does not matter. Half of the products take no part in placing the nodes. It is found
+    /// by trial on samples of products, so it is an estimate and not a bound.
     pub fn residual(&self) -> f64 {
         self.residual
     }
 
     /// The same errors relative to what the path itself can carry, `∫ L s dλ` times the largest value on the support of each
-    /// reflectance in P: the figure for a sensor that sees nothing but light reflected many times. Not below [`residual`](Self::residual)
-    /// for reflectances up to 1.
+    /// reflectance in P: the figure for a sensor that sees nothing but light reflected many times.
     pub fn path_residual(&self) -> f64 {
         self.path_residual
     }

@@ -57,6 +57,16 @@ impl<'a> TestProducts<'a> {
         &self.products
     }
 
+    /// How many of the first products are single reflections, one a reflectance in their order.
+    pub(super) fn singles(&self) -> usize {
+        self.reflectances.len().min(self.products.len())
+    }
+
+    /// The reflectances in a product that have a single reflection among the products.
+    pub(super) fn members(&self, product: usize) -> Vec<usize> {
+        self.products[product].0.iter().copied().filter(|member| *member < self.singles()).collect()
+    }
+
     /// The values of all products at the point of this number.
     pub(super) fn at_point(&self, point: usize) -> &[f64] {
         &self.values[point * self.products.len()..][..self.products.len()]

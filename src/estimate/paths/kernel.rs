@@ -97,9 +97,11 @@ pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>,
             if element == NONE {
                 out.escaped += 1;
                 block.alive[lane] = false;
-                if let (Some(group), true) = (scene.sky, block.vertex[lane] > 0) {
-                    // (ρ/π) cosθ over the density cosθ/π leaves ρ; the environment's radiance is the unit.
-                    block.add(lane, group, block.weight[lane], width, row, &mut out.sums);
+                if block.vertex[lane] > 0 {
+                    for &group in &scene.skies {
+                        // (ρ/π) cosθ over the density cosθ/π leaves ρ; the environment's radiance is the unit.
+                        block.add(lane, group, block.weight[lane], width, row, &mut out.sums);
+                    }
                 }
                 continue;
             }
@@ -126,7 +128,8 @@ pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>,
             block.element[lane] = element;
             block.part[lane] = hits.part[lane];
             block.vertex[lane] += 1;
-            out.endless |= block.vertex[lane] > ENDLESS;
+            block.lossless[lane] = if scene.survival[surface] < 1.0 { 0 } else { block.lossless[lane] + 1 };
+            out.endless |= block.lossless[lane] > ENDLESS;
         }
         if out.endless {
             break;
@@ -188,6 +191,8 @@ struct Block {
     index: [u32; LANES],
     /// Reflections so far.
     vertex: [u32; LANES],
+    /// Of these, the last ones in a row that absorbed nothing.
+    lossless: [u32; LANES],
     /// W and 1/p.
     weight: [f64; LANES],
     survival: [f64; LANES],
@@ -207,6 +212,7 @@ impl Block {
             replicate: [0; LANES],
             index: [0; LANES],
             vertex: [0; LANES],
+            lossless: [0; LANES],
             weight: [0.0; LANES],
             survival: [0.0; LANES],
             point: Vectors::ZERO,
@@ -224,6 +230,7 @@ impl Block {
         self.replicate[lane] = replicate;
         self.index[lane] = index;
         self.vertex[lane] = 0;
+        self.lossless[lane] = 0;
         self.point.set(lane, DVec3::ZERO);
         self.normal.set(lane, receiver.pose.normal);
         self.element[lane] = receiver.resting_on;

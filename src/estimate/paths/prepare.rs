@@ -15,8 +15,8 @@ const PAD: usize = 8;
 pub(in crate::estimate) struct PathScene<'a> {
     pub(super) world: &'a World,
     pub(super) lights: Lights,
-    /// The group of the environment.
-    pub(super) sky: Option<u32>,
+    /// The group of each environment; several may share one.
+    pub(super) skies: Vec<u32>,
     /// Surface of the front and of the back of each element.
     pub(super) surfaces: Vec<[u32; 2]>,
     /// Reflectances at the nodes, a padded row a surface.
@@ -39,13 +39,13 @@ impl<'a> PathScene<'a> {
         }
         let survival = spectral.reflectances.iter().map(|r| r.iter().copied().fold(0.0, f64::max)).collect();
         let mut lit = Vec::new();
-        let mut sky = None;
+        let mut skies = Vec::new();
         for (group, sources) in spectral.groups.iter().enumerate() {
             let brightness: f64 = spectral.weights.iter().map(|channel| channel[group].iter().sum::<f64>()).sum();
             for &s in sources {
                 let source = &scene.sources[s];
                 match source.emitter {
-                    Emitter::Environment => sky = Some(group as u32),
+                    Emitter::Environment => skies.push(group as u32),
                     _ => lit.push((source, group as u32, brightness * extent(scene, source))),
                 }
             }
@@ -53,7 +53,7 @@ impl<'a> PathScene<'a> {
         PathScene {
             world,
             lights: Lights::new(scene, lit),
-            sky,
+            skies,
             surfaces: scene.elements.iter().map(|e| [e.front as u32, e.back as u32]).collect(),
             reflectance,
             survival,
