@@ -228,6 +228,9 @@ impl Batch<'_> {
         let mut verdict = Verdict { ratio: 0.0, gain: vec![0.0; state.jobs.len()], blind: true };
         for channel in &self.task.channels(state) {
             let mut budget = Budget::new();
+            // What no number of samples lowers.
+            let mut fixed = Budget::new();
+            fixed.push(BudgetRow::rectangular("", channel.exact.quadrature_error));
             let mut value = channel.exact.value;
             let mut sizes = Vec::with_capacity(active.len());
             for sampled in &channel.sampled {
@@ -236,17 +239,27 @@ impl Batch<'_> {
                 let missed = sampled.missed.as_ref().map_or(0.0, |(bound, _)| bound / 3f64.sqrt());
                 budget.push(BudgetRow::type_a("", found.standard_uncertainty, found.degrees_of_freedom()));
                 budget.push(BudgetRow::normal("", missed));
+                fixed.push(BudgetRow::rectangular("", sampled.spectral_residual * found.mean.abs()));
                 sizes.push(found.standard_uncertainty.hypot(missed));
             }
-            let expanded = budget.expanded().map_or(f64::INFINITY, |e| e.expanded_uncertainty);
-            if expanded == 0.0 {
+            if budget.combined_standard_uncertainty() == 0.0 {
                 continue;
             }
             // Without a target the budget of time alone ends the run.
-            let ratio = self.stop.target.map_or(f64::INFINITY, |target| expanded / (target * value.abs()));
-            verdict.ratio = verdict.ratio.max(if ratio.is_nan() { f64::INFINITY } else { ratio });
-            verdict.blind &= value == 0.0;
+            let over = |rows: &Budget| {
+                let expanded = rows.expanded().map_or(f64::INFINITY, |e| e.expanded_uncertainty);
+                let ratio = self.stop.target.map_or(f64::INFINITY, |target| expanded / (target * value.abs()));
+                if ratio.is_nan() { f64::INFINITY } else { ratio }
+            };
             let size = budget.combined_standard_uncertainty();
+            let hopeless = self.stop.target.is_some() && over(&fixed) >= 1.0;
+            budget.rows.extend(fixed.rows);
+            verdict.ratio = verdict.ratio.max(over(&budget));
+            verdict.blind &= value == 0.0;
+            if hopeless {
+                // No sample would help this channel.
+                continue;
+            }
             for (&job, u) in active.iter().zip(sizes) {
                 let cost = f64::from(state.jobs[job].points) * self.task.jobs[job].0.cost();
                 verdict.gain[job] += (u / size).powi(2) / cost;

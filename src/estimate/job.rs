@@ -1,7 +1,7 @@
 //! What is sampled: a job in a pose adds up geometric sums for each replicate, and can be continued at any time.
 
 use super::direct::{self, SourceJob};
-use super::paths::{PathScene, trace};
+use super::paths::{BrightSpot, PathScene, trace};
 use super::receiver::Receiver;
 use super::sky;
 use super::{Counters, EstimateError, REPLICATES, Sampled};
@@ -39,12 +39,15 @@ pub(super) struct Progress {
     pub(super) share_clear: f64,
     /// The unobstructed light by its formula, where there is one.
     pub(super) known: Option<f64>,
+    /// Bright spots that paths may overlook.
+    pub(super) spots: Vec<BrightSpot>,
 }
 
 impl Progress {
     /// Forgets all samples, but not what is known beforehand.
     pub(super) fn restart(&mut self) {
-        *self = Progress { share_clear: self.share_clear, known: self.known, ..Progress::default() };
+        *self =
+            Progress { share_clear: self.share_clear, known: self.known, spots: std::mem::take(&mut self.spots), ..Progress::default() };
     }
 }
 
@@ -149,7 +152,13 @@ impl Job<'_> {
                 (weights.iter().flatten().sum(), spectral.residual)
             }
         };
-        let missed = self.missed(progress).map(|(bound, why)| (bound * scale, why)).filter(|(bound, _)| *bound > 0.0);
+        let blind = replicates.iter().all(|r| *r == 0.0);
+        let mut missed = self.missed(progress, blind).map(|(bound, why)| (bound * scale, why)).filter(|(bound, _)| *bound > 0.0);
+        if let Some(overlooked) = self.overlooked(progress, channel) {
+            let (bound, why) = missed.unwrap_or_default();
+            let both = if why.is_empty() { String::new() } else { format!("{why}; ") };
+            missed = Some((bound + overlooked, both + "a bright spot beside a lamp that too few paths can have found"));
+        }
         Sampled { label: label.to_owned(), replicates, samples, missed, spectral_residual }
     }
 
@@ -160,8 +169,17 @@ impl Job<'_> {
         Replicates::evaluate(&means).map_or((0.0, 0.0), |found| (found.mean, found.standard_uncertainty))
     }
 
-    /// What all samples may have missed, per unit of density.
-    fn missed(&self, progress: &Progress) -> Option<(f64, String)> {
+    /// What bright spots beside lamps may add that paths do not know of, as the channel weighs it.
+    fn overlooked(&self, progress: &Progress, channel: usize) -> Option<f64> {
+        let Job::Paths { spectral, .. } = self else { return None };
+        let samples = f64::from(progress.points) * REPLICATES as f64;
+        let weight = |group: u32| spectral.weights[channel][group as usize].iter().sum::<f64>();
+        let sum: f64 = progress.spots.iter().filter(|s| s.is_unresolved(samples)).map(|s| s.bound * weight(s.group)).sum();
+        (sum > 0.0).then_some(sum)
+    }
+
+    /// What all samples may have missed, per unit of density; `blind` if the channel has received nothing at all.
+    fn missed(&self, progress: &Progress, blind: bool) -> Option<(f64, String)> {
         let samples = f64::from(progress.points) * REPLICATES as f64;
         match self {
             Job::Source(SourceJob { tested: false, .. }) => None,
@@ -188,7 +206,7 @@ impl Job<'_> {
                 }
             }
             Job::Paths { scene, accepted_sr, .. } => {
-                if progress.sums.iter().any(|s| *s != 0.0) {
+                if !blind {
                     let (mean, spread) = self.mean_and_spread(progress);
                     let width = self.width();
                     let of_slot = |slot: usize| progress.sums.iter().skip(slot).step_by(width).sum::<f64>() / samples;

@@ -150,16 +150,18 @@ impl<'a> Task<'a> {
         for (exact, sum) in exact.iter_mut().zip(&sums) {
             exact.value = sum.value();
         }
-        PoseState {
-            pose,
-            receiver,
-            exact,
-            active,
-            jobs: vec![Progress::default(); self.jobs.len()],
-            counters,
-            standing: Standing::Trial,
-            target_met: true,
-        }
+        let jobs = self
+            .jobs
+            .iter()
+            .map(|(job, _)| Progress {
+                spots: match job {
+                    Job::Paths { scene, .. } => scene.bright_spots(receiver.centre()),
+                    _ => Vec::new(),
+                },
+                ..Progress::default()
+            })
+            .collect();
+        PoseState { pose, receiver, exact, active, jobs, counters, standing: Standing::Trial, target_met: true }
     }
 
     /// The unobstructed light of a sampled source, where a formula gives it.

@@ -165,6 +165,26 @@ impl Shape {
         }
     }
 
+    /// Distance from a point to the surface, m. Meshes answer with infinity: their nearest point takes a search.
+    #[must_use]
+    pub fn distance_m(&self, point: DVec3) -> f64 {
+        match self {
+            Shape::Rectangle(r) => {
+                let to = point - r.centre;
+                let beyond = |half: DVec3| (to.dot(half.normalize()).abs() - half.length()).max(0.0);
+                DVec3::new(beyond(r.half_u), beyond(r.half_v), to.dot(r.normal())).length()
+            }
+            Shape::Polygon(p) => (point - p.nearest_point(point)).length(),
+            Shape::Disc(d) => {
+                let to = point - d.centre;
+                let height = to.dot(d.normal);
+                ((to - height * d.normal).length() - d.radius_m).max(0.0).hypot(height)
+            }
+            Shape::Sphere(s) => ((point - s.centre).length() - s.radius_m).abs(),
+            Shape::Mesh(_) => f64::INFINITY,
+        }
+    }
+
     /// Lowest and highest value of `axis · x` over the shape, m; `axis` need not be of unit length.
     ///
     /// Meshes answer with the box that holds them.

@@ -6,20 +6,21 @@
 //! | `Illuminance`, `LuminousFlux`, `Luminance` | lx, lm, cd/m² | K_m = 683.002 lm/W |
 //! | … `(adjusted_with: "A")` | | `K_m ∫S V dλ / ∫S s dλ`: true for that spectrum |
 //! | … `(efficacy_lm_w: 683)` | | as given |
-//! | `PhotonIrradiance` | µmol/(m² s) | `10⁶ / (N_A h c)`, and s(λ) is multiplied by λ |
+//! | `PhotonIrradiance` | µmol/(m² s) | `10⁶ / (N_A h c)`, and s(λ) is multiplied by n(λ) λ |
 //! | `Photocurrent` | A | 1; s(λ) is in A/W |
 //! | `Signal(unit: "V", per_watt: 2)` | as given | as given |
 //!
-//! Photons are counted with the wavelength in air for the wavelength in vacuum (n = 1), which is 0.03 % low.
+//! Photons are counted at the wavelength in vacuum, n(λ) λ: files give wavelengths in air.
 
 use super::decode::Value;
 use super::factor_range::{LARGEST, is_zero, outside_of};
 use super::reading::Reading;
 use super::spectrum_reader::{read_factor, read_spectrum, v_lambda};
+use crate::quantity::air::wavelength_in_vacuum_nm;
 use crate::quantity::constants::{AVOGADRO_PER_MOL, K_M_LM_W, PLANCK_J_S, SPEED_OF_LIGHT_M_S};
 use crate::quantity::measurand::Measurand;
 use crate::sensor::{Acceptance, Aperture, Channel};
-use crate::spectrum::{Factor, Outside};
+use crate::spectrum::{Factor, Outside, Table};
 
 const READS: [&str; 9] =
     ["Irradiance", "Illuminance", "RadiantFlux", "LuminousFlux", "Radiance", "Luminance", "PhotonIrradiance", "Photocurrent", "Signal"];
@@ -107,7 +108,7 @@ pub(super) fn read_channel(
     };
     let (name, mut responsivity) = (name?, responsivity?);
     if quantity == "PhotonIrradiance" {
-        responsivity = Factor::Product(vec![responsivity, Factor::Proportional(1e-9)]);
+        responsivity = Factor::Product(vec![responsivity, Factor::Proportional(1e-9), refractive_index()?]);
     }
     Some(Channel { name: name.into(), responsivity, reads: measurand, scale })
 }
@@ -154,4 +155,11 @@ fn read_luminous_scale(reads: &Value, responsivity: Option<&Factor>, reading: &m
             None
         }
     }
+}
+
+/// Refractive index of air at a wavelength in air, every 5 nm from 200 nm to 2500 nm and held outside; between the nodes it is straight
+/// to 1e-8.
+fn refractive_index() -> Option<Factor> {
+    let rows: Vec<(f64, f64)> = (40..=500).map(|i| 5.0 * f64::from(i)).map(|nm| (nm, wavelength_in_vacuum_nm(nm) / nm)).collect();
+    Table::from_rows(&rows, Outside::Hold).ok().map(Factor::Table)
 }

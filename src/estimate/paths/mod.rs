@@ -17,9 +17,11 @@
 //!
 //! Sixteen paths run in lockstep; a lane whose path has ended takes the next one.
 
+mod bright_spot;
 mod kernel;
 mod prepare;
 
+pub(super) use bright_spot::BrightSpot;
 pub(super) use kernel::trace;
 pub(super) use prepare::PathScene;
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::bright_spot::Beside;
 use crate::estimate::light::Lights;
 use crate::geometry::world::World;
 use crate::plan::spectral::SpectralPlan;
@@ -27,6 +28,8 @@ pub(in crate::estimate) struct PathScene<'a> {
     pub(super) row: usize,
     /// Groups of sources.
     pub(super) groups: usize,
+    /// Lamps that stand close to a reflecting surface.
+    pub(super) beside: Vec<Beside>,
 }
 
 impl<'a> PathScene<'a> {
@@ -37,13 +40,15 @@ impl<'a> PathScene<'a> {
         for (target, values) in reflectance.chunks_exact_mut(row).zip(&spectral.reflectances) {
             target[..nodes].copy_from_slice(values);
         }
-        let survival = spectral.reflectances.iter().map(|r| r.iter().copied().fold(0.0, f64::max)).collect();
+        let survival: Vec<f64> = spectral.reflectances.iter().map(|r| r.iter().copied().fold(0.0, f64::max)).collect();
         let mut lit = Vec::new();
         let mut skies = Vec::new();
+        let mut beside = Vec::new();
         for (group, sources) in spectral.groups.iter().enumerate() {
             let brightness: f64 = spectral.weights.iter().map(|channel| channel[group].iter().sum::<f64>()).sum();
             for &s in sources {
                 let source = &scene.sources[s];
+                beside.extend(Beside::of(scene, source, group as u32, &survival));
                 match source.emitter {
                     Emitter::Environment => skies.push(group as u32),
                     _ => lit.push((source, group as u32, brightness * extent(scene, source))),
@@ -59,6 +64,7 @@ impl<'a> PathScene<'a> {
             survival,
             row,
             groups: spectral.groups.len(),
+            beside,
         }
     }
 

@@ -88,7 +88,12 @@ fn a_dark_paint_is_held_as_well_as_a_light_one() {
         let nodes = SpectralNodes::compile_default(&[(&source, &sensor)], &[&paint]);
         let exact = source.integral(&[&sensor, &paint]);
         let found: f64 = nodes.weights(&source, &sensor).iter().zip(nodes.sample(&paint)).map(|(w, r)| w * r).sum();
-        assert!((found / exact - 1.0).abs() <= nodes.residual() + 1e-12, "{brightness}: {} against {:e}", found / exact - 1.0, nodes.residual());
+        assert!(
+            (found / exact - 1.0).abs() <= nodes.residual() + 1e-12,
+            "{brightness}: {} against {:e}",
+            found / exact - 1.0,
+            nodes.residual()
+        );
         assert!(nodes.residual() < 1e-3, "{brightness}: {:e}", nodes.residual());
     };
     for exponent in 0..=6 {
