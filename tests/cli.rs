@@ -74,6 +74,8 @@ fn bad_arguments_are_told_with_exit_code_two() {
     for (arguments, part) in [
         (vec!["measure"], "SCENE"),
         (vec!["measure", scene, "--target", "-1%"], "a positive share such as 0.1%"),
+        (vec!["measure", scene, "--target", "5"], "5 means 500 %; write 5%"),
+        (vec!["measure", scene, "--target", "1"], "1 means 100 %; write 1%"),
         (vec!["measure", scene, "--budget", "2"], "a positive time with its unit"),
         (vec!["measure", scene, "--samples", "0"], "0"),
         (vec!["measure", scene, "--samples", "10", "--target", "1%"], "cannot be used with"),
