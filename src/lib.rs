@@ -1,6 +1,6 @@
 //! **Étendue: put a modelled instrument into a modelled scene and read it, with a stated uncertainty.**
 //!
-//! A virtual photometer and sensor-simulation toolkit: library, command line, and later a Python module. This page is the architecture.
+//! A virtual photometer and sensor-simulation toolkit: library and command line. This page is the architecture.
 //!
 //! # The equation
 //!
@@ -66,8 +66,8 @@
 //!
 //! # Invariants
 //!
-//! 1. **No result without an uncertainty.** A reading carries value, unit, budget, `u_c`, degrees of freedom, `U`, samples, seconds,
-//!    seed, plan.
+//! 1. **No result without an uncertainty.** A measurement carries seed and plan; each reading carries value, unit, budget, `u_c`,
+//!    degrees of freedom, `U`, samples, seconds.
 //! 2. **Never a silent zero.** A zero says why; samples that found nothing give an upper bound, not `0 ± 0`.
 //! 3. **A plan is a partition.** Every term is kept or left out, and what is left out carries a reason and a bound; a bound that is
 //!    not zero becomes a row of the budget. Checked after every rule.

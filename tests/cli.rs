@@ -50,6 +50,50 @@ fn a_reading_has_value_unit_uncertainty_and_coverage_factor() {
 }
 
 #[test]
+fn the_scene_of_the_readme_reads_what_it_says() {
+    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
+    let scene = readme.split("```ron\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let folder = scratch("readme");
+    for part in ["scenes", "sensors"] {
+        std::fs::create_dir_all(folder.join(part)).unwrap();
+    }
+    let path = folder.join("scenes/first.ron");
+    std::fs::write(&path, scene).unwrap();
+    let sensor = "sensors/ideal-illuminance-meter.ron";
+    std::fs::copy(root().join(sensor), folder.join(sensor)).unwrap();
+    let output = etendue(&["measure", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(readme.contains("It reads 25 lx"));
+    assert!(stdout(&output).contains(" 25  lx "), "{}", stdout(&output));
+}
+
+#[test]
+fn the_table_says_what_its_columns_mean() {
+    let text = stdout(&etendue(&["measure", "scenes/photometric-bench.ron"]));
+    for part in ["U = k u_c at 95 %; exact: U below 1e-9 of the reading", "budgets of these 5 readings: --format json"] {
+        assert_eq!(text.matches(part).count(), 1, "`{part}` in\n{text}");
+    }
+}
+
+#[test]
+fn the_map_of_a_grid_says_where_its_axes_point() {
+    let folder = scratch("grid");
+    let path = folder.join("grid.ron");
+    let scene = "Scene(
+        sources: [(name: \"lamp\", shape: Point, at: (0, 0, 2), strength: Candela(100), spectrum: \"A\")],
+        instruments: [(name: \"wall\", grid: (from: (-1, 0, 0), to: (1, 0, 1), points: (3, 2)), facing: (0, 0, 1),
+            sensor: Sensor(title: \"ideal\", aperture: Point, acceptance: Cosine,
+                           channels: [(name: \"E_v\", responsivity: \"V\", reads: Illuminance)]))],
+    )";
+    std::fs::write(&path, scene).unwrap();
+    let output = etendue(&["measure", path.to_str().unwrap()]);
+    let text = stdout(&output);
+    assert!(text.contains("(x to the right, z upwards)"), "{text}{}", stderr(&output));
+    // The lowest of the points is at a corner below, 100 cd · 2/√5³ / 1 m²; the highest above, 100 lx.
+    assert!(text.contains("0.179 lowest/highest   (± U)"), "{text}");
+}
+
+#[test]
 fn bad_input_is_told_on_stderr_with_exit_code_two_and_nothing_is_written() {
     let folder = scratch("bad-input");
     let scene = folder.join("broken.ron");
@@ -74,6 +118,8 @@ fn bad_arguments_are_told_with_exit_code_two() {
     for (arguments, part) in [
         (vec!["measure"], "SCENE"),
         (vec!["measure", scene, "--target", "-1%"], "a positive share such as 0.1%"),
+        (vec!["measure", scene, "--target", "5"], "5 means 500 %; write 5%"),
+        (vec!["measure", scene, "--target", "1"], "1 means 100 %; write 1%"),
         (vec!["measure", scene, "--budget", "2"], "a positive time with its unit"),
         (vec!["measure", scene, "--samples", "0"], "0"),
         (vec!["measure", scene, "--samples", "10", "--target", "1%"], "cannot be used with"),
@@ -125,7 +171,13 @@ fn files_are_written_whole_and_say_where() {
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let path = folder.join("photometric-bench").with_extension(extension);
         assert_eq!(stdout(&output).trim(), path.to_str().unwrap());
-        assert!(std::fs::read_to_string(path).unwrap().contains(part));
+        let written = std::fs::read_to_string(path).unwrap();
+        assert!(written.contains(part));
+        match format {
+            "json" => assert!(written.contains("\"coverage_probability\": 0.95")),
+            "csv" => assert!(written.starts_with("instrument,") && written.lines().next().unwrap().ends_with(",target_met,seed,notes")),
+            _ => {}
+        }
     }
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 3, "nothing half-written is left behind");
 }

@@ -6,42 +6,18 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod disk;
+
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use etendue::scene::{FileProblem, Files, MemoryFiles, read_scene};
+use disk::{Folder, files_in, root};
+use etendue::scene::{Files, MemoryFiles, read_scene};
 use proptest::prelude::*;
 
-/// Files below a folder of the disk.
-struct Folder(PathBuf);
-
-impl Files for Folder {
-    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileProblem> {
-        let file = self.0.join(path);
-        let about = fs::metadata(&file).map_err(|error| match error.kind() {
-            std::io::ErrorKind::NotFound => FileProblem::Missing,
-            _ => FileProblem::Unreadable(error.to_string()),
-        })?;
-        if !about.is_file() {
-            return Err(FileProblem::Unreadable("it is not a file".into()));
-        }
-        if about.len() > most_bytes {
-            return Err(FileProblem::TooLong { bytes: about.len() });
-        }
-        fs::read(&file).map_err(|error| FileProblem::Unreadable(error.to_string()))
-    }
-
-    fn neighbours(&self, path: &str) -> Vec<String> {
-        let file = self.0.join(path);
-        let Some(entries) = file.parent().and_then(|folder| fs::read_dir(folder).ok()) else { return Vec::new() };
-        let mut names: Vec<String> = entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-        names.sort();
-        names
-    }
-}
-
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics")
+    root().join("tests/diagnostics")
 }
 
 /// Compares a message with its expectation, or writes the expectation. Gives what differs.
@@ -68,7 +44,7 @@ fn message(path: &str, files: &dyn Files) -> String {
 #[test]
 fn every_broken_file_gets_its_message() {
     let files = Folder(folder());
-    let names: Vec<String> = files.neighbours("scenes/x").into_iter().filter(|name| name.ends_with(".ron")).collect();
+    let names = files_in("tests/diagnostics/scenes", &[".ron"]);
     assert!(names.len() >= 45, "only {} broken files", names.len());
     let wrong: Vec<String> = names
         .iter()
@@ -78,6 +54,28 @@ fn every_broken_file_gets_its_message() {
         })
         .collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// Sensor files that a text names, such as `sensors/x.ron`.
+fn sensors_named(text: &str) -> BTreeSet<String> {
+    let after = text.match_indices("sensors/").map(|(at, _)| &text[at..]);
+    let names = after.filter_map(|rest| Some(rest[..rest.find(['"', '`', ' ', '\\', '\n'])?].to_owned()));
+    names.filter(|name| name.ends_with(".ron")).collect()
+}
+
+#[test]
+fn every_sensor_that_a_help_names_exists() {
+    let expected = files_in("tests/diagnostics/scenes", &[".expected"]);
+    let helps = expected.iter().flat_map(|name| {
+        let text = fs::read_to_string(folder().join("scenes").join(name)).unwrap();
+        text.lines().filter(|line| line.starts_with("  = help:")).map(|line| format!("{line}\n")).collect::<Vec<_>>()
+    });
+    let readers = files_in("src/scene", &["reader.rs"]);
+    let sources = readers.iter().map(|name| fs::read_to_string(root().join("src/scene").join(name)).unwrap());
+    let named: BTreeSet<String> = helps.chain(sources).flat_map(|text| sensors_named(&text)).collect();
+    assert!(!named.is_empty(), "no help names a sensor");
+    let missing: Vec<&String> = named.iter().filter(|name| !root().join(name).is_file()).collect();
+    assert!(missing.is_empty(), "named in a help, but not there: {missing:?}");
 }
 
 #[test]

@@ -155,6 +155,9 @@ fn what_nothing_hides_has_no_spread_even_where_shadows_are_tested() {
         1,
     );
     assert_eq!(reading.value, exact.readings[0].value, "the formula is left alone whatever the seed");
+    let default = read(&scene, &Plan::new(&scene, &PlanOptions::default()).expect("a plan"), &Stop::default(), 0).readings.remove(0);
+    let allowed = reading.expanded.expanded_uncertainty.hypot(default.expanded.expanded_uncertainty);
+    assert!((reading.value - default.value).abs() <= allowed, "tested {}, by the default plan {}", reading.value, default.value);
     // Not an uncertainty of zero: a shadow smaller than the gaps between the samples may have been missed.
     assert!(reading.standard_uncertainty() > 0.0);
 }

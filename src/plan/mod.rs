@@ -118,6 +118,3 @@ impl Plan {
 pub fn rule_names() -> Vec<&'static str> {
     omit::RULES.iter().map(|r| r.name).chain(choose::CHOICES.iter().map(|c| c.name)).collect()
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,4 +1,25 @@
 //! Who can see whom: bounds from extents and bounding spheres, on the safe side, without a ray.
+//!
+//! An aperture of radius a at p with normal n, a source S, an occluder O; c and R are centre and radius of a bounding sphere.
+//!
+//! ```text
+//! height over the horizon    h = max over x in S of n · (x − p)                          below it if h ≤ 0
+//! smallest angle off axis    θ = ∠(n, c − p) − asin((R + a)/|c − p|)                     outside if θ > the limit of the acceptance
+//! side that emits, plane     m · (p − q) + a > 0     for a plane through q whose lit side m points to; sphere: |p − c| − R + a > 0
+//! ```
+//!
+//! Nothing stands between S and the apertures, which lie in a ball (c₀, R₀) about all poses, if for each O one of these holds:
+//!
+//! ```text
+//! itself      O is the piece of S that shines: plane or a sphere, a convex closed mesh, or a mesh on one side of each of its triangles
+//! unseen      O is below the horizon, or outside the acceptance, of every pose
+//! behind      O lies wholly in m · (x − q) ≤ 0, behind the plane of a flat source
+//! same side   with the distance d from the plane of O, or d = |x − c| − R from a sphere: d ≤ 0 or d ≥ 0 for apertures and S alike
+//!             (for a sphere d ≤ 0 only: a ball is convex, what is outside of it is not)
+//! beside      |c − x(t)| > (1 − t) R₀ + t R_S + R for all t in 0 … 1, x(t) = (1 − t) c₀ + t c_S: O misses the hull of the two balls
+//!             (the difference is convex in t, so its minimum is found by ternary search)
+//! aside       for parallel light along s, with w = c − c₀: |w − (w · s) s| > R₀ + R, or w · s > R₀ + R, O being downstream
+//! ```
 
 use std::f64::consts::PI;
 

@@ -1,10 +1,23 @@
 //! A measurement as CSV: a header row, then a row a reading.
+//!
+//! | columns | |
+//! |---|---|
+//! | `instrument`, `index` | its name; which of its poses, from 0 |
+//! | `column`, `row` | place in a grid, from 0; empty for what is no grid |
+//! | `x_m`, `y_m`, `z_m` | centre of the aperture, m |
+//! | `channel`, `quantity`, `unit` | name of the channel, what it reads, in which unit the next columns are |
+//! | `value`, `standard_uncertainty` | the reading and `u_c` |
+//! | `degrees_of_freedom` | effective, of `u_c`; `inf` without samples |
+//! | `coverage_factor`, `expanded_uncertainty` | `k` and `U = k u_c` of the 95 % interval |
+//! | `samples`, `target_met` | samples taken; whether `U` is as small as was asked |
+//! | `seed` | of the random numbers; the same in each row |
+//! | `notes` | what is to be known about the reading, joined by `; ` |
 
 use crate::measurement::Measurement;
 use crate::report::json::grid_index;
 
 /// The columns.
-const COLUMNS: [&str; 17] = [
+const COLUMNS: [&str; 19] = [
     "instrument",
     "index",
     "column",
@@ -22,6 +35,8 @@ const COLUMNS: [&str; 17] = [
     "expanded_uncertainty",
     "samples",
     "target_met",
+    "seed",
+    "notes",
 ];
 
 /// The measurement as CSV text.
@@ -50,6 +65,8 @@ pub fn to_csv(measurement: &Measurement) -> String {
             r.expanded.expanded_uncertainty.to_string(),
             r.samples.to_string(),
             r.target_met.to_string(),
+            measurement.seed.to_string(),
+            r.notes.join("; "),
         ]
     }));
     for row in rows {

@@ -5,6 +5,7 @@
 use std::fmt::Write;
 
 use crate::estimate::Counters;
+use crate::math::DVec3;
 use crate::measurement::{Measurement, Reading};
 use crate::metrology::rounding::{Rounded, format_significant};
 use crate::metrology::{BudgetRow, EvaluationKind};
@@ -55,6 +56,8 @@ fn write_all(m: &Measurement, out: &mut String) -> std::fmt::Result {
         for r in &single {
             write_budget(r, out)?;
         }
+    } else {
+        writeln!(out, "  budgets of these {} readings: --format json\n", single.len())?;
     }
     write_notes(m, out)?;
     write_counters(m, out)
@@ -137,7 +140,9 @@ fn write_table(readings: &[&Reading], out: &mut String) -> std::fmt::Result {
             writeln!(out, "  {}", "─".repeat(shown.iter().map(|&c| width[c] + 2).sum::<usize>() - 2))?;
         }
     }
-    writeln!(out)
+    let exact = readings.iter().any(|r| relative(r.expanded.expanded_uncertainty, r.value) == "exact");
+    let exact = if exact { format!("; exact: U below {EXACT:.0e} of the reading") } else { String::new() };
+    writeln!(out, "\n  U = k u_c at 95 %{exact}\n")
 }
 
 fn write_grid(points: &[&Reading], out: &mut String) -> std::fmt::Result {
@@ -163,15 +168,17 @@ fn write_grid(points: &[&Reading], out: &mut String) -> std::fmt::Result {
         let (v, u) = rounded(value, expanded);
         format!("{v} ± {u} {unit}")
     };
-    writeln!(out, "    mean        {}   (k = 1.96)", of(mean, 1.96 * sampled.hypot(common)))?;
+    let mean_expanded = 1.96 * sampled.hypot(common);
+    writeln!(out, "    mean        {}   (k = 1.96)", of(mean, mean_expanded))?;
     writeln!(out, "    lowest      {}   at {}", of(lowest.value, lowest.expanded.expanded_uncertainty), place(lowest))?;
     writeln!(out, "    highest     {}   at {}", of(highest.value, highest.expanded.expanded_uncertainty), place(highest))?;
     if mean > 0.0 {
+        let low = (lowest.value, lowest.expanded.expanded_uncertainty);
         writeln!(
             out,
-            "    uniformity  {} lowest/mean, {} lowest/highest",
-            format_significant(lowest.value / mean, 3),
-            format_significant(lowest.value / highest.value, 3)
+            "    uniformity  {} lowest/mean, {} lowest/highest   (± U)",
+            ratio(low, (mean, mean_expanded)),
+            ratio(low, (highest.value, highest.expanded.expanded_uncertainty))
         )?;
     }
     let worst = points.iter().map(|r| r.expanded.expanded_uncertainty / r.value.abs()).filter(|u| u.is_finite()).fold(0.0, f64::max);
@@ -188,10 +195,40 @@ fn write_grid(points: &[&Reading], out: &mut String) -> std::fmt::Result {
         let line: Vec<String> = row.iter().map(|c| format!("{c:>width$}")).collect();
         writeln!(out, "    {}", line.join("  "))?;
     }
-    if step != [1, 1] {
-        writeln!(out, "    (every {} point of a row, every {} row)", ordinal(step[0]), ordinal(step[1]))?;
+    let along = |index: usize| points.get(index).map_or(DVec3::ZERO, |r| r.at - first.at);
+    let right = if columns > 1 { Some(format!("{} to the right", direction(along(columns - 1)))) } else { None };
+    let up = if rows > 1 { Some(format!("{} upwards", direction(along((rows - 1) * columns)))) } else { None };
+    let thinned = (step != [1, 1]).then(|| format!("every {} point of a row, every {} row", ordinal(step[0]), ordinal(step[1])));
+    let legend: Vec<String> = [right, up, thinned].into_iter().flatten().collect();
+    if !legend.is_empty() {
+        writeln!(out, "    ({})", legend.join(", "))?;
     }
     writeln!(out)
+}
+
+/// A quotient of two readings, each a value and its U, with the U of the quotient: U² = (U_a/b)² + (a U_b/b²)², for independent
+/// readings. What two readings have in common cancels in their quotient, so U is not too small for it.
+fn ratio(a: (f64, f64), b: (f64, f64)) -> String {
+    let value = a.0 / b.0;
+    let expanded = (a.1 / b.0).hypot(value * b.1 / b.0);
+    if expanded <= EXACT * value.abs() {
+        return format_significant(value, 3);
+    }
+    let (value, expanded) = rounded(value, expanded);
+    format!("{value} ± {expanded}")
+}
+
+/// A direction: the name of the axis that it runs along, else its unit vector.
+fn direction(along: DVec3) -> String {
+    let unit = along.normalize_or_zero();
+    let named = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)].into_iter().find_map(|(name, axis)| {
+        let other = (unit - axis * unit.dot(axis)).length();
+        (unit != DVec3::ZERO && other < 1e-9).then(|| if unit.dot(axis) > 0.0 { name.to_owned() } else { format!("−{name}") })
+    });
+    named.unwrap_or_else(|| {
+        let part = |x: f64| format_significant(x, 3);
+        format!("({}, {}, {})", part(unit.x), part(unit.y), part(unit.z))
+    })
 }
 
 fn ordinal(n: usize) -> String {

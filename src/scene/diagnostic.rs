@@ -17,20 +17,9 @@ use std::ops::Range;
 
 use super::document::Document;
 
-/// How bad a problem is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
-    /// The file cannot be used.
-    Error,
-    /// The file can be used, but probably does not say what was meant.
-    Warning,
-}
-
 /// One problem of one file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// How bad it is.
-    pub severity: Severity,
     /// The file, as it was asked for.
     pub file: String,
     /// Line, from 1.
@@ -56,17 +45,7 @@ impl Diagnostic {
     /// A problem of a whole file: one that cannot be read, or is of the wrong kind.
     #[must_use]
     pub fn of_file(file: &str, message: impl Into<String>, help: Option<String>) -> Self {
-        Self {
-            severity: Severity::Error,
-            file: file.into(),
-            line: 1,
-            column: 1,
-            end_column: 1,
-            path: String::new(),
-            message: message.into(),
-            help,
-            excerpt: None,
-        }
+        Self { file: file.into(), line: 1, column: 1, end_column: 1, path: String::new(), message: message.into(), help, excerpt: None }
     }
 
     /// A problem of a line of a file that is not a document, such as a curve; the excerpt is the text of the line.
@@ -96,7 +75,6 @@ impl Diagnostic {
     pub fn at(document: &Document, span: &Range<usize>, path: &str, message: impl Into<String>, help: Option<String>) -> Self {
         let place = document.place(span);
         Self {
-            severity: Severity::Error,
             file: document.file.clone(),
             line: place.line,
             column: place.column,
@@ -135,13 +113,9 @@ fn shortened(text: &str, about: usize) -> (String, usize) {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kind = match self.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-        };
         let number = self.line.to_string();
         let gap = " ".repeat(number.len());
-        write!(f, "{kind}: {}\n{gap}--> {}", self.message, self.file)?;
+        write!(f, "error: {}\n{gap}--> {}", self.message, self.file)?;
         if self.excerpt.is_some() {
             write!(f, ":{}:{}", self.line, self.column)?;
         }

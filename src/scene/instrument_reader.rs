@@ -25,8 +25,9 @@ const KEYS: [&str; 7] = ["name", "sensor", "at", "facing", "up", "list", "grid"]
 /// Reads an instrument; `poses_left` is how many poses the scene may still have.
 pub(super) fn read_instrument(value: &Value, name: Option<&str>, poses_left: &mut usize, reading: &mut Reading) -> Option<Instrument> {
     let fields = value.fields("an instrument", &KEYS, &mut reading.problems)?;
-    let sensor =
-        fields.require("sensor", "\"../sensors/ideal-lux-meter.ron\"", &mut reading.problems).and_then(|v| read_sensor(&v, reading));
+    let sensor = fields
+        .require("sensor", "\"../sensors/ideal-illuminance-meter.ron\"", &mut reading.problems)
+        .and_then(|v| read_sensor(&v, reading));
     let arranged = match (fields.get("list"), fields.get("grid")) {
         (Some(_), Some(grid)) => {
             grid.problem_at(&fields.key_span("grid"), &mut reading.problems, "both `list` and `grid` are given", "keep one of them");

@@ -45,6 +45,15 @@ pub(super) fn nearest<'a>(found: &str, allowed: impl IntoIterator<Item = &'a str
     best.map(|(_, name)| name)
 }
 
+/// The names that are nearest to `found`, nearest first, at most `most` of them, and how many more there are.
+pub(super) fn by_distance<'a>(found: &str, names: impl IntoIterator<Item = &'a str>, most: usize) -> (Vec<&'a str>, usize) {
+    let wanted = plain(found);
+    let mut all: Vec<(usize, &str)> = names.into_iter().map(|name| (distance(&wanted, &plain(name)), name)).collect();
+    all.sort_unstable();
+    let more = all.len().saturating_sub(most);
+    (all.into_iter().take(most).map(|(_, name)| name).collect(), more)
+}
+
 /// `did you mean …? allowed: …`
 pub(super) fn suggestion(found: &str, allowed: &[&str]) -> String {
     let list = allowed.join(", ");

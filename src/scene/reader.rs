@@ -104,7 +104,8 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
         }
     }
     if none {
-        let example = "instruments: [(name: \"meter\", sensor: \"../sensors/ideal-lux-meter.ron\", at: (0, 0, 0), facing: (0, 0, 1))]";
+        let example =
+            "instruments: [(name: \"meter\", sensor: \"../sensors/ideal-illuminance-meter.ron\", at: (0, 0, 0), facing: (0, 0, 1))]";
         match fields.get("instruments") {
             None => drop(fields.require("instruments", example.trim_start_matches("instruments: "), &mut reading.problems)),
             Some(value) if matches!(value.node.kind, Kind::List(_)) => {

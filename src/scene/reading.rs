@@ -7,10 +7,26 @@ use super::decode::Value;
 use super::diagnostic::{Diagnostic, Problems};
 use super::document::Document;
 use super::files::{FileProblem, Files, LONGEST_DOCUMENT_BYTES, MOST_BYTES, hashed, resolved};
-use super::nearest::nearest;
+use super::nearest::{by_distance, nearest};
 use crate::geometry::mesh::Mesh;
 use crate::sensor::Sensor;
 use crate::spectrum::Table;
+
+/// Most files that are offered instead of a missing one.
+const OFFERED: usize = 5;
+
+/// What a file could have been called: the name that was probably meant, else the nearest ones of its kind in its folder.
+fn instead_of(file: &str, neighbours: &[String]) -> Option<String> {
+    if let Some(name) = nearest(file, neighbours.iter().map(String::as_str)) {
+        return Some(format!("did you mean `{name}` in the same folder?"));
+    }
+    let (_, ending) = file.rsplit_once('.')?;
+    let of_its_kind = neighbours.iter().map(String::as_str).filter(|name| name.rsplit_once('.').is_some_and(|(_, e)| e == ending));
+    let (names, more) = by_distance(file, of_its_kind, OFFERED);
+    let listed = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+    (!names.is_empty()).then(|| format!("in the same folder: {listed}{rest}"))
+}
 
 /// Files that have been read, problems that have been found.
 pub(super) struct Reading<'f> {
@@ -51,7 +67,7 @@ impl<'f> Reading<'f> {
             Err(why) => {
                 let root = if self.root.is_empty() { "the current folder".to_string() } else { format!("`{}`", self.root) };
                 let help = format!(
-                    "names are relative to the file that mentions them and stay within {root}; move the file there, or choose a root that holds both"
+                    "names are relative to the file that mentions them and stay within {root}; move the file there, or give the folder that holds both: `--root DIR`"
                 );
                 mention.problem(&mut self.problems, why, help);
                 None
@@ -72,8 +88,8 @@ impl<'f> Reading<'f> {
                 let file = path.rsplit('/').next().unwrap_or(path);
                 let (message, help) = match problem {
                     FileProblem::Missing => {
-                        let help = match nearest(file, neighbours.iter().map(String::as_str)) {
-                            Some(name) => format!("did you mean `{name}` in the same folder?"),
+                        let help = match instead_of(file, &neighbours) {
+                            Some(offer) => offer,
                             None => "names are relative to the file that mentions them".into(),
                         };
                         (format!("there is no {what} `{path}`"), help)
@@ -145,8 +161,7 @@ impl<'f> Reading<'f> {
                     FileProblem::Missing => {
                         let neighbours = self.files.neighbours(path);
                         let file = path.rsplit('/').next().unwrap_or(path);
-                        nearest(file, neighbours.iter().map(String::as_str))
-                            .map(|name| format!("did you mean `{name}` in the same folder?"))
+                        instead_of(file, &neighbours)
                     }
                     FileProblem::Unreadable(_) => None,
                 };

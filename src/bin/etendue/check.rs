@@ -14,11 +14,11 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = disk::scene(&arguments.scene, arguments.root.as_deref())?;
-    let count = |n: usize, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
+    let count = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
     print(&format!(
         "ok: {}, {}, {}\n",
-        count(scene.sources.len(), "source"),
-        count(scene.elements.len(), "surface"),
-        count(scene.instruments.len(), "instrument"),
+        count(scene.sources.len(), "source", "sources"),
+        count(scene.elements.len(), "piece of surface", "pieces of surface"),
+        count(scene.instruments.len(), "instrument", "instruments"),
     ))
 }

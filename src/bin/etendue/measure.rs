@@ -72,6 +72,10 @@ fn share(given: &str) -> Result<f64, String> {
         None => (given.trim(), 1.0),
     };
     match number.trim().parse::<f64>() {
+        // Whoever writes 5 means 5 %.
+        Ok(x) if scale == 1.0 && x >= 1.0 && x.is_finite() => {
+            Err(format!("{} means {} %; write {}%", number.trim(), 100.0 * x, number.trim()))
+        }
         Ok(x) if x > 0.0 && x.is_finite() => Ok(x * scale),
         _ => Err("a positive share such as 0.1% or 0.001".to_owned()),
     }

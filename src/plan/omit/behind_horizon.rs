@@ -1,4 +1,11 @@
 //! The whole source lies below the horizon of the instrument, in each of its poses.
+//!
+//! ```text
+//! n · (x − p) ≤ 0 for every point x of the source   ⇒   cos θ ≤ 0 wherever light arrives from   ⇒   direct light = 0
+//! ```
+//!
+//! `p` is the centre of the aperture and `n` its normal. The inequality holds for the whole aperture, which is plane: n · (y − p) = 0
+//! for each of its points y. For parallel light that travels along s it reads −n · s ≤ 0.
 
 use super::Rule;
 use crate::plan::sight;

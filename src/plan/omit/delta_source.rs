@@ -22,7 +22,7 @@ fn apply(scene: &Scene, plan: &mut Plan) {
         plan.narrowed.push(Narrowing {
             rule: RULE.name,
             instrument,
-            what: format!("samples of {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence),
+            what: format!("no samples for {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence),
         });
     }
 }

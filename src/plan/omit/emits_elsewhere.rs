@@ -1,4 +1,12 @@
 //! The source emits from one side only, and the instrument is on the other, in each of its poses.
+//!
+//! ```text
+//! m · (p − q) + a ≤ 0   for each flat piece of the source, with a point q and the normal m of its lit side
+//! ±(|p − c| − R) + a ≤ 0   for each sphere, + lit outside, − lit inside
+//!     ⇒   no point of the aperture is on a lit side   ⇒   direct light = 0
+//! ```
+//!
+//! `p` and `a` are centre and radius of the aperture. A mesh is never left out by this rule.
 
 use super::Rule;
 use crate::plan::sight;

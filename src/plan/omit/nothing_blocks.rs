@@ -30,7 +30,7 @@ fn apply(scene: &Scene, plan: &mut Plan) {
         plan.narrowed.push(Narrowing {
             rule: RULE.name,
             instrument,
-            what: format!("shadow rays of {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence),
+            what: format!("no shadow rays for {count} direct term{}: {}", if count == 1 { "" } else { "s" }, RULE.sentence),
         });
     }
 }

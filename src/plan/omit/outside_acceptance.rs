@@ -1,4 +1,12 @@
 //! The whole source lies outside the directions that the sensor accepts, in each pose of the instrument.
+//!
+//! ```text
+//! ∠(n, c − p) − asin((R + a)/|c − p|) > θ_max   ⇒   R(ω) = 0 towards every point of the source   ⇒   direct light = 0
+//! ```
+//!
+//! `p`, `a`, `n` are centre, radius and normal of the aperture, `c` and `R` those of the source's bounding sphere (R = 0 for a point
+//! source; the angle of −s alone for parallel light along s), θ_max the angle where the acceptance ends. Within |c − p| ≤ R + a nothing
+//! is left out.
 
 use super::Rule;
 use crate::plan::sight;
