@@ -137,7 +137,9 @@ fn a_meter_indicates_what_it_was_adjusted_to() {
     let [channel, photons] = scene.instruments[0].sensor.channels.as_slice() else { panic!("two channels") };
     let a = crate::spectrum::Density::illuminant_a();
     assert_close(channel.scale * a.integral(&[&channel.responsivity]), K_M_LM_W * a.integral(&[&v_lambda()]));
-    // One watt at 550 nm is 4.598 µmol/s.
+    // One watt at 550 nm in air: λ_vac / (h c N_A), 4.599 µmol/s.
     let watt = crate::spectrum::Density::line(550.0, 1.0).unwrap();
-    assert!((photons.scale * watt.integral(&[&photons.responsivity]) - 4.59768).abs() < 1e-4);
+    let vacuum_nm = crate::quantity::air::wavelength_in_vacuum_nm(550.0);
+    let expected = 1e6 * crate::quantity::photon::photons_per_joule(vacuum_nm) / crate::quantity::constants::AVOGADRO_PER_MOL;
+    assert!((photons.scale * watt.integral(&[&photons.responsivity]) / expected - 1.0).abs() < 1e-9);
 }
