@@ -173,7 +173,8 @@ impl Batch<'_> {
             progress.points += w.count;
             progress.connections += piece.connections;
             progress.clear += piece.clear;
-            progress.potential += piece.potential;
+            progress.potential.resize(piece.potential.len(), 0.0);
+            progress.potential.iter_mut().zip(&piece.potential).for_each(|(sum, more)| *sum += more);
             state.counters.add(&piece.counters);
         }
         Ok(())

@@ -9,6 +9,8 @@
 
 use super::closed_form::aperture::{self, Bounded, aperture_average};
 use super::closed_form::{directional, disc, exchange, point, polygon, polygon_in_cone, sphere};
+use crate::geometry::mesh::Mesh;
+use crate::geometry::rays::COINCIDENT;
 use crate::geometry::shape::{Shape, Side};
 use crate::math::DVec3;
 use crate::scene::{Pose, Scene};
@@ -93,7 +95,31 @@ fn edges_rad(scene: &Scene, elements: &[(usize, Side)], at: DVec3, normal: DVec3
     edges
 }
 
+/// Whether a receiver in the plane of an emitting face looks away from it or along it, to the rounding of its coordinates. It receives
+/// nothing of that face then; the closed forms take the limit from the front.
+fn skims(point: DVec3, front: DVec3, size_m: f64, at: DVec3, normal: DVec3) -> bool {
+    let slack = COINCIDENT * size_m + 4.0 * f64::EPSILON * (at.abs().max_element() + point.abs().max_element());
+    front.dot(at - point).abs() <= slack && normal.dot(front) > -COINCIDENT
+}
+
+fn face_is_dark(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> bool {
+    shape.plane().is_some_and(|(point, front)| skims(point, side.sign() * front, shape.bounding_sphere().1, at, normal))
+}
+
+/// The triangles of a mesh, without those whose plane a receiver skims, each in the order that shows its emitting side.
+fn lit_triangles(m: &Mesh, side: Side, at: DVec3, normal: DVec3) -> impl Iterator<Item = Vec<DVec3>> {
+    (0..m.triangle_count() as u32).filter_map(move |t| {
+        let corners = m.triangle(t)?;
+        let front = side.sign() * m.normal(t)?;
+        let size = (corners[1] - corners[0]).length().max((corners[2] - corners[0]).length());
+        (!skims(corners[0], front, size, at, normal)).then(|| facing(&corners, at, side))
+    })
+}
+
 fn over_hemisphere(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> f64 {
+    if face_is_dark(shape, side, at, normal) {
+        return 0.0;
+    }
     match shape {
         Shape::Rectangle(r) => polygon::polygon(&facing(&r.corners(), at, side), normal),
         Shape::Polygon(p) => polygon::polygon(&facing(p.corners(), at, side), normal),
@@ -103,10 +129,7 @@ fn over_hemisphere(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> f64 {
             (Side::Back, true) => std::f64::consts::PI,
             _ => 0.0,
         },
-        Shape::Mesh(m) => (0..m.triangle_count() as u32)
-            .filter_map(|t| m.triangle(t))
-            .map(|corners| polygon::polygon(&facing(&corners, at, side), normal))
-            .sum(),
+        Shape::Mesh(m) => lit_triangles(m, side, at, normal).map(|corners| polygon::polygon(&corners, normal)).sum(),
     }
 }
 
@@ -114,6 +137,9 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
     let of_polygon = |corners: &[DVec3]| {
         if polygon::receiver_in_front(corners) { polygon_in_cone::polygon_in_cone(corners, normal, half_angle_rad) } else { 0.0 }
     };
+    if face_is_dark(shape, side, at, normal) {
+        return 0.0;
+    }
     match shape {
         Shape::Rectangle(r) => of_polygon(&facing(&r.corners(), at, side)),
         Shape::Polygon(p) => of_polygon(&facing(p.corners(), at, side)),
@@ -130,9 +156,7 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
             (Side::Back, true) => super::closed_form::cone::projected_solid_angle(half_angle_rad),
             _ => 0.0,
         },
-        Shape::Mesh(m) => {
-            (0..m.triangle_count() as u32).filter_map(|t| m.triangle(t)).map(|corners| of_polygon(&facing(&corners, at, side))).sum()
-        }
+        Shape::Mesh(m) => lit_triangles(m, side, at, normal).map(|corners| of_polygon(&corners)).sum(),
     }
 }
 

@@ -89,7 +89,7 @@ pub(super) fn sample(
         sums: vec![0.0; REPLICATES],
         connections: 0,
         clear: 0,
-        potential: 0.0,
+        potential: vec![0.0],
         counters: Counters { samples: u64::from(count) * REPLICATES as u64, ..Counters::default() },
     };
     each_connection(job, world, receiver, &streams, (first, count), |replicate, g, visible| {
@@ -98,7 +98,7 @@ pub(super) fn sample(
         if g > 0.0 {
             piece.connections += 1;
             piece.clear += u64::from(visible);
-            piece.potential += g;
+            piece.potential[0] += g;
         }
     });
     piece.counters.rays = if job.tested { piece.connections } else { 0 };

@@ -33,8 +33,8 @@ pub(super) struct Progress {
     /// Connections that were made, and how many were clear.
     pub(super) connections: u64,
     pub(super) clear: u64,
-    /// Sum of what all connections would have brought, had they been clear.
-    pub(super) potential: f64,
+    /// Sum of what all connections would have brought, had they been clear; of paths, for each group of sources.
+    pub(super) potential: Vec<f64>,
     /// Share of the light that a pilot run found clear.
     pub(super) share_clear: f64,
     /// The unobstructed light by its formula, where there is one.
@@ -56,7 +56,7 @@ pub(super) struct Piece {
     pub(super) sums: Vec<f64>,
     pub(super) connections: u64,
     pub(super) clear: u64,
-    pub(super) potential: f64,
+    pub(super) potential: Vec<f64>,
     pub(super) counters: Counters,
 }
 
@@ -152,13 +152,11 @@ impl Job<'_> {
                 (weights.iter().flatten().sum(), spectral.residual)
             }
         };
-        let blind = replicates.iter().all(|r| *r == 0.0);
-        let mut missed = self.missed(progress, blind).map(|(bound, why)| (bound * scale, why)).filter(|(bound, _)| *bound > 0.0);
-        if let Some(overlooked) = self.overlooked(progress, channel) {
-            let (bound, why) = missed.unwrap_or_default();
-            let both = if why.is_empty() { String::new() } else { format!("{why}; ") };
-            missed = Some((bound + overlooked, both + "a bright spot beside a lamp that too few paths can have found"));
-        }
+        let missed = match self {
+            Job::Paths { scene, spectral, accepted_sr } => missed_by_paths(scene, &spectral.weights[channel], *accepted_sr, progress),
+            _ => self.missed(progress).map(|(bound, why)| (bound * scale, why)),
+        };
+        let missed = missed.filter(|(bound, _)| *bound > 0.0);
         Sampled { label: label.to_owned(), replicates, samples, missed, spectral_residual }
     }
 
@@ -169,20 +167,12 @@ impl Job<'_> {
         Replicates::evaluate(&means).map_or((0.0, 0.0), |found| (found.mean, found.standard_uncertainty))
     }
 
-    /// What bright spots beside lamps may add that paths do not know of, as the channel weighs it.
-    fn overlooked(&self, progress: &Progress, channel: usize) -> Option<f64> {
-        let Job::Paths { spectral, .. } = self else { return None };
+    /// What all connections may have missed, per unit of density.
+    fn missed(&self, progress: &Progress) -> Option<(f64, String)> {
         let samples = f64::from(progress.points) * REPLICATES as f64;
-        let weight = |group: u32| spectral.weights[channel][group as usize].iter().sum::<f64>();
-        let sum: f64 = progress.spots.iter().filter(|s| s.is_unresolved(samples)).map(|s| s.bound * weight(s.group)).sum();
-        (sum > 0.0).then_some(sum)
-    }
-
-    /// What all samples may have missed, per unit of density; `blind` if the channel has received nothing at all.
-    fn missed(&self, progress: &Progress, blind: bool) -> Option<(f64, String)> {
-        let samples = f64::from(progress.points) * REPLICATES as f64;
+        let potential: f64 = progress.potential.iter().sum();
         match self {
-            Job::Source(SourceJob { tested: false, .. }) => None,
+            Job::Paths { .. } | Job::Source(SourceJob { tested: false, .. }) => None,
             Job::Source(_) | Job::Sky { .. } => {
                 let n = progress.connections as f64;
                 if progress.connections == 0 {
@@ -192,12 +182,12 @@ impl Job<'_> {
                         _ => None,
                     };
                 }
-                let bound = RULE_OF_THREE / n * progress.potential / samples;
+                let bound = RULE_OF_THREE / n * potential / samples;
                 if progress.clear == 0 {
                     Some((bound, format!("no clear connection in {n}")))
                 } else if progress.clear == progress.connections {
                     Some((bound, format!("no blocked connection in {n}")))
-                } else if self.mean_and_spread(progress).1 < progress.potential / samples / samples {
+                } else if self.mean_and_spread(progress).1 < potential / samples / samples {
                     // The strata quantise the share that is clear. One replicate of sixteen that differs by one connection would spread
                     // more than this: they all found the same count, which says no more than that a different one is rare.
                     Some((bound, format!("every replicate found the same share of {n} connections clear")))
@@ -205,20 +195,41 @@ impl Job<'_> {
                     None
                 }
             }
-            Job::Paths { scene, accepted_sr, .. } => {
-                if !blind {
-                    let (mean, spread) = self.mean_and_spread(progress);
-                    let width = self.width();
-                    let of_slot = |slot: usize| progress.sums.iter().skip(slot).step_by(width).sum::<f64>() / samples;
-                    let largest = (0..width).map(of_slot).fold(0.0, f64::max);
-                    return (spread < mean / samples)
-                        .then(|| (RULE_OF_THREE * largest / samples, format!("every replicate found the same in {samples} paths")));
-                }
-                // As if every path had found the brightest reflecting surface, or what the hidden lights would have given.
-                let brightest = scene.survival.iter().copied().fold(0.0, f64::max) * accepted_sr;
-                let bound = RULE_OF_THREE / samples * brightest.max(progress.potential / samples);
-                Some((bound, format!("no path out of {samples} found light")))
-            }
         }
     }
+}
+
+/// What paths may have missed, as a channel weighs it, group by group: light of a source that no path found, or that every replicate
+/// found alike, and bright spots beside lamps.
+fn missed_by_paths(scene: &PathScene<'_>, weights: &[Vec<f64>], accepted_sr: f64, progress: &Progress) -> Option<(f64, String)> {
+    let samples = f64::from(progress.points) * REPLICATES as f64;
+    let n = f64::from(progress.points);
+    // As if every path had found the brightest reflecting surface.
+    let brightest = scene.survival.iter().copied().fold(0.0, f64::max) * accepted_sr;
+    let mut bound = 0.0;
+    let mut reasons: Vec<String> = Vec::new();
+    let mut add = |more: f64, why: String| {
+        bound += more;
+        if more > 0.0 && !reasons.contains(&why) {
+            reasons.push(why);
+        }
+    };
+    for (group, weight) in weights.iter().enumerate() {
+        let seen = |sums: &[f64]| scene.group(sums, group).iter().zip(weight).map(|(s, w)| s / n * w).sum::<f64>();
+        let values: Vec<f64> = progress.sums.chunks_exact(scene.width()).map(seen).collect();
+        let Some(found) = Replicates::evaluate(&values) else { continue };
+        let total: f64 = weight.iter().sum();
+        if found.mean == 0.0 {
+            let potential = progress.potential.get(group).copied().unwrap_or(0.0) / samples;
+            let scale = if potential > 0.0 { potential } else { brightest };
+            add(RULE_OF_THREE / samples * scale * total, format!("no path out of {samples} found light of a source"));
+        } else if found.standard_uncertainty < found.mean / samples {
+            add(RULE_OF_THREE / samples * found.mean, format!("every replicate found the same in {samples} paths"));
+        }
+    }
+    let weight = |group: u32| weights[group as usize].iter().sum::<f64>();
+    for spot in progress.spots.iter().filter(|spot| spot.is_unresolved(samples)) {
+        add(spot.bound * weight(spot.group), "a bright spot beside a lamp that too few paths can have found".to_owned());
+    }
+    (bound > 0.0).then(|| (bound, reasons.join("; ")))
 }

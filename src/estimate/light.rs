@@ -98,7 +98,8 @@ pub(super) struct Lights {
 }
 
 impl Lights {
-    /// Sources with their groups; each is chosen in proportion to `power`, which may be any positive guess.
+    /// Sources with their groups; half of the choices are in proportion to `power`, which may be any positive guess, and half are even: a
+    /// lamp that counts for little by its power may be the only one that counts here.
     pub(super) fn new<'a>(scene: &'a Scene, sources: impl IntoIterator<Item = (&'a Source, u32, f64)>) -> Lights {
         let mut lights = Lights::default();
         for (source, group, power) in sources {
@@ -124,7 +125,7 @@ impl Lights {
         let mut sum = 0.0;
         for share in &mut lights.share {
             // Powers that are all zero or overflow leave an even choice.
-            *share = if total > 0.0 && total.is_finite() { *share / total } else { even };
+            *share = if total > 0.0 && total.is_finite() { 0.5 * (*share / total + even) } else { even };
             lights.before.push(sum);
             sum += *share;
         }

@@ -40,7 +40,7 @@ pub(super) fn sample(world: &World, receiver: &Receiver<'_>, stream: Stream, (fi
         sums: vec![0.0; REPLICATES],
         connections: 0,
         clear: 0,
-        potential: 0.0,
+        potential: vec![0.0],
         counters: Counters { samples, rays: samples, ..Counters::default() },
     };
     let known = receiver.acceptance.projected_solid_angle_sr();
@@ -49,7 +49,7 @@ pub(super) fn sample(world: &World, receiver: &Receiver<'_>, stream: Stream, (fi
         if w > 0.0 {
             piece.connections += 1;
             piece.clear += u64::from(visible);
-            piece.potential += w;
+            piece.potential[0] += w;
         }
     });
     piece

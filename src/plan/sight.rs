@@ -53,7 +53,9 @@ pub(crate) fn may_emit_towards(scene: &Scene, source: &Source, at: DVec3, reach_
         let shape = &scene.elements[e].shape;
         match (shape.plane(), shape) {
             (Some((point, normal)), _) => side.sign() * normal.dot(at - point) + reach_m > 0.0,
-            (None, Shape::Sphere(s)) => side.sign() * ((at - s.centre).length() - s.radius_m) + reach_m > 0.0,
+            // On the sphere to the rounding of coordinates counts as within it, as it does where the light is computed.
+            (None, Shape::Sphere(s)) if side == Side::Back => s.holds(at) || (at - s.centre).length() - reach_m < s.radius_m,
+            (None, Shape::Sphere(s)) => (at - s.centre).length() + reach_m > s.radius_m,
             (None, _) => true,
         }
     })

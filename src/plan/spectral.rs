@@ -7,7 +7,7 @@
 //! Sources with the same density form a group `g`; paths keep one sum a group and a node. The product of source and responsivity
 //! is integrated exactly against the hat functions of the nodes; only the product of reflectances is interpolated.
 
-use super::{Plan, Transport};
+use super::{Method, Plan, Transport};
 use crate::scene::Scene;
 use crate::spectrum::quadrature::SpectralNodes;
 use crate::spectrum::{Density, Factor};
@@ -40,7 +40,8 @@ pub fn plan_wavelengths(scene: &Scene, plan: &Plan) -> Vec<Option<SpectralPlan>>
 }
 
 fn plan_instrument(scene: &Scene, plan: &Plan, instrument: usize) -> Option<SpectralPlan> {
-    let kept: Vec<(usize, usize)> = plan.terms_of(instrument, Transport::Reflected).map(|t| (t.id.channel(), t.id.source())).collect();
+    let kept: Vec<(usize, usize)> = // What another method sums up exactly is not carried by the paths as well.
+        plan.terms_of(instrument, Transport::Reflected).filter(|t| t.method == Method::Paths).map(|t| (t.id.channel(), t.id.source())).collect();
     if kept.is_empty() {
         return None;
     }

@@ -19,8 +19,8 @@ use crate::math::sample::sample_cosine_cone;
 pub(in crate::estimate) struct PathSums {
     /// `REPLICATES` × width sums.
     pub(in crate::estimate) sums: Vec<f64>,
-    /// Connections to a light as if nothing stood in their way: the scale of what may have been missed.
-    pub(in crate::estimate) potential: f64,
+    /// Connections to the lights of each group as if nothing stood in their way: the scale of what may have been missed.
+    pub(in crate::estimate) potential: Vec<f64>,
     /// Rays traced.
     pub(in crate::estimate) rays: u64,
     /// Paths that left the scene.
@@ -34,7 +34,7 @@ pub(in crate::estimate) struct PathSums {
 pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>, stream: Stream, first: u32, count: u32) -> PathSums {
     let row = scene.row;
     let width = scene.groups * row;
-    let mut out = PathSums { sums: vec![0.0; REPLICATES * width], potential: 0.0, rays: 0, escaped: 0, endless: false };
+    let mut out = PathSums { sums: vec![0.0; REPLICATES * width], potential: vec![0.0; scene.groups], rays: 0, escaped: 0, endless: false };
     let replicate_streams: [Stream; REPLICATES] = std::array::from_fn(|r| stream.child(r as u64));
     let items = u64::from(count) * REPLICATES as u64;
     let mut next = 0u64;
@@ -163,7 +163,7 @@ fn connect(scene: &PathScene<'_>, block: &mut Block, shadow: &mut Rays, u: &[[f6
             shadow.t_end[lane] = light.t_end;
             shadow.arriving[lane] = light.element;
             shadow.arriving_part[lane] = light.part;
-            out.potential += arrives[lane];
+            out.potential[light.group as usize] += arrives[lane];
             out.rays += 1;
             any = true;
         }

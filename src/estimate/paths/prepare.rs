@@ -45,7 +45,12 @@ impl<'a> PathScene<'a> {
         let mut skies = Vec::new();
         let mut beside = Vec::new();
         for (group, sources) in spectral.groups.iter().enumerate() {
-            let brightness: f64 = spectral.weights.iter().map(|channel| channel[group].iter().sum::<f64>()).sum();
+            // Each channel counts alike, however bright it is: a share of its own total.
+            let of_channel = |channel: &Vec<Vec<f64>>| {
+                let total: f64 = channel.iter().flatten().sum();
+                if total > 0.0 { channel[group].iter().sum::<f64>() / total } else { 0.0 }
+            };
+            let brightness: f64 = spectral.weights.iter().map(of_channel).sum();
             for &s in sources {
                 let source = &scene.sources[s];
                 beside.extend(Beside::of(scene, source, group as u32, &survival));
