@@ -4,7 +4,7 @@
 //! integral of source times responsivity and I P is the straight line between the values of P at the two nodes.
 //! Places tried: breakpoints of reflectances, lines, the middle, the median of the weight.
 
-use super::test_products::{Product, TestProducts};
+use super::test_products::TestProducts;
 
 /// Share of a term's weight that may lie outside the nodes on either side, where the end values are held.
 const TAIL_SHARE: f64 = 1e-9;
@@ -94,7 +94,7 @@ impl<'a> Placement<'a> {
         let mut largest = 0.0_f64;
         for row in interval.errors.chunks_exact(self.tests.products().len()) {
             for (number, (error, brightest)) in row.iter().zip(self.tests.brightest()).enumerate() {
-                if Product::is_for_placing(number) {
+                if self.tests.is_for_placing(number) {
                     largest = largest.max(error.abs() * brightest.sqrt());
                 }
             }
@@ -173,10 +173,10 @@ impl<'a> Placement<'a> {
 /// Whoever sees a path of many reflections sees its surfaces by one reflection as well, and that light is the scale of the reading: a
 /// dark paint is measured against the light from a dark paint.
 fn shares(points: &[Point], terms: usize, tests: &TestProducts<'_>) -> Vec<f64> {
-    let (count, singles) = (tests.products().len(), tests.singles());
-    let mut light = vec![0.0; terms * singles];
+    let count = tests.products().len();
+    let mut light = vec![0.0; terms * count];
     for (index, point) in points.iter().enumerate() {
-        let row = &mut light[point.term * singles..][..singles];
+        let row = &mut light[point.term * count..][..count];
         for (sum, value) in row.iter_mut().zip(tests.at_point(index)) {
             *sum += point.weight * value;
         }
@@ -184,7 +184,11 @@ fn shares(points: &[Point], terms: usize, tests: &TestProducts<'_>) -> Vec<f64> 
     (0..terms * count)
         .map(|index| {
             let (term, product) = (index / count, index % count);
-            let single = |member: &usize| tests.brightest()[*member] * light[term * singles + member];
+            if tests.is_endless(product) {
+                // Many reflections add up to a reading of their own.
+                return 1.0 / light[index];
+            }
+            let single = |member: &usize| tests.brightest()[*member] * light[term * count + member];
             // A surface that reflects nothing of this term is not seen by it.
             let smallest = tests.members(product).iter().map(single).filter(|light| *light > 0.0).fold(f64::INFINITY, f64::min);
             tests.brightest()[product] / smallest

@@ -22,6 +22,9 @@ pub const DEFAULT_TARGET_RESIDUAL: f64 = 1e-5;
 /// Gauss–Legendre nodes a segment for the test integrals: exact up to degree 7 between breakpoints.
 const TEST_NODES: usize = 4;
 
+/// No segment between test points is longer than this part of the range of the reflectances' tables.
+const SEGMENTS: f64 = 40.0;
+
 /// Wavelengths at which paths carry the spectrum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpectralNodes {
@@ -70,7 +73,7 @@ impl SpectralNodes {
         &self.wavelengths_nm
     }
 
-    /// Largest error over the terms and the test products P of one to eight reflectances, as a share of the reading of whoever sees them:
+    /// Largest error over the terms and the test products P of one to eight reflectances (of all powers where one is bright), as a share of the reading of whoever sees them:
     /// `|Σ wₖ P(λₖ) − ∫ L s P dλ| / ∫ L s ρ dλ` with the ρ in P that reflects least. A single reflection is so measured against its own
     /// light, and the brightness of the paints does not matter. Half of the products take no part in placing the nodes. It is found
     /// by trial on samples of products, so it is an estimate and not a bound.
@@ -117,6 +120,7 @@ fn term_points(terms: &[(&Density, &Factor)], reflectances: &[&Factor]) -> Vec<P
     }
     cuts_nm.sort_by(f64::total_cmp);
     cuts_nm.dedup();
+    subdivide(&mut cuts_nm);
     let mut points = Vec::new();
     for (term, (density, factor)) in terms.iter().enumerate() {
         let first = points.len();
@@ -134,6 +138,18 @@ fn term_points(terms: &[(&Density, &Factor)], reflectances: &[&Factor]) -> Vec<P
     points.retain(|point| point.weight.is_finite() && point.weight != 0.0);
     points.sort_by(|a, b| a.nm.total_cmp(&b.nm));
     points
+}
+
+/// Cuts long segments: on the few points of one long segment nodes could be placed that err everywhere else.
+fn subdivide(cuts_nm: &mut Vec<f64>) {
+    let (Some(first), Some(last)) = (cuts_nm.first(), cuts_nm.last()) else { return };
+    let longest = (last - first) / SEGMENTS;
+    let gaps: Vec<(f64, f64)> = cuts_nm.windows(2).map(|w| (w[0], w[1])).collect();
+    for (from, to) in gaps {
+        let parts = ((to - from) / longest).ceil().min(SEGMENTS);
+        cuts_nm.extend((1..parts as usize).map(|k| from + (to - from) * k as f64 / parts));
+    }
+    cuts_nm.sort_by(f64::total_cmp);
 }
 
 /// The reflectances that are not constant over the joint support of the terms, without repetitions.

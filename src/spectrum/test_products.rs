@@ -1,4 +1,5 @@
-//! Products of one to eight reflectances on which a spectral quadrature is tried: `P̂(λ) = Π (ρᵢ(λ)/ρᵢ,max)^mᵢ`.
+//! Products of one to eight reflectances on which a spectral quadrature is tried: `P̂(λ) = Π (ρᵢ(λ)/ρᵢ,max)^mᵢ`, and for bright
+//! surfaces the sum of all their powers, `ρ/(1 − ρ)`: what the inside of a closed surface sends out in the end.
 //!
 //! Every reflectance is divided by its largest value at the points, so a dark paint is tested as hard as a light one. Powers of one,
 //! then products of two, then drawn at random from a fixed sequence: even numbers place nodes, odd numbers are only looked at.
@@ -11,14 +12,20 @@ const MAX_BOUNCES: usize = 8;
 /// Number of products, over all kinds.
 const MAX_PRODUCTS: usize = 160;
 
+/// Reflectances from here on, and below one, are tried with the sum of all their powers.
+const BRIGHT: f64 = 0.8;
+
 /// Indices of the reflectances of a product; one may occur several times.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Product(Vec<usize>);
+pub(super) struct Product {
+    members: Vec<usize>,
+    /// Not the product but `ρ/(1 − ρ)` of its only member.
+    endless: bool,
+}
 
 impl Product {
-    /// Whether the product with this number takes part in placing the nodes.
-    pub(super) fn is_for_placing(number: usize) -> bool {
-        number.is_multiple_of(2)
+    fn of(members: Vec<usize>) -> Self {
+        Self { members, endless: false }
     }
 }
 
@@ -38,18 +45,47 @@ impl<'a> TestProducts<'a> {
             (*factor, if largest > 0.0 { 1.0 / largest } else { 1.0 })
         };
         let reflectances: Vec<_> = reflectances.iter().map(scaled).collect();
-        let products = products(reflectances.len());
-        let largest = |product: &Product| product.0.iter().map(|index| 1.0 / reflectances[*index].1).product();
+        let mut products = products(reflectances.len());
+        let bright = |index: &usize| (BRIGHT..1.0).contains(&(1.0 / reflectances[*index].1));
+        products.extend((0..reflectances.len()).filter(bright).map(|index| Product { members: vec![index], endless: true }));
+        let largest = |product: &Product| match product.endless {
+            true => 1.0,
+            false => product.members.iter().map(|index| 1.0 / reflectances[*index].1).product(),
+        };
         let brightest = products.iter().map(largest).collect();
-        let mut values = Vec::with_capacity(points_nm.len() * products.len());
-        let mut single = vec![0.0; reflectances.len()];
+        let mut tests = Self { reflectances, products, brightest, values: Vec::new() };
+        let mut values = Vec::with_capacity(points_nm.len() * tests.products.len());
+        let mut single = vec![0.0; tests.reflectances.len()];
         for nm in points_nm {
-            for (value, (factor, scale)) in single.iter_mut().zip(&reflectances) {
+            for (value, (factor, scale)) in single.iter_mut().zip(&tests.reflectances) {
                 *value = factor.at(nm) * scale;
             }
-            values.extend(products.iter().map(|product| product.0.iter().map(|index| single[*index]).product::<f64>()));
+            values.extend(tests.products.iter().map(|product| tests.value(product, |index| single[index])));
         }
-        Self { reflectances, products, brightest, values }
+        tests.values = values;
+        tests
+    }
+
+    /// A product from the scaled values of its members, at most one.
+    fn value(&self, product: &Product, scaled: impl Fn(usize) -> f64) -> f64 {
+        if !product.endless {
+            return product.members.iter().map(|index| scaled(*index)).product();
+        }
+        // ρ/(1 − ρ) over the same at ρ_max = 1/scale.
+        let index = product.members[0];
+        let largest = 1.0 / self.reflectances[index].1;
+        let rho = scaled(index) * largest;
+        rho / (1.0 - rho) * (1.0 - largest) / largest
+    }
+
+    /// Whether the product with this number takes part in placing the nodes.
+    pub(super) fn is_for_placing(&self, number: usize) -> bool {
+        number.is_multiple_of(2) || self.is_endless(number)
+    }
+
+    /// Whether it is the sum of all powers of a reflectance.
+    pub(super) fn is_endless(&self, number: usize) -> bool {
+        self.products[number].endless
     }
 
     /// The products.
@@ -64,7 +100,7 @@ impl<'a> TestProducts<'a> {
 
     /// The reflectances in a product that have a single reflection among the products.
     pub(super) fn members(&self, product: usize) -> Vec<usize> {
-        self.products[product].0.iter().copied().filter(|member| *member < self.singles()).collect()
+        self.products[product].members.iter().copied().filter(|member| *member < self.singles()).collect()
     }
 
     /// The values of all products at the point of this number.
@@ -79,7 +115,7 @@ impl<'a> TestProducts<'a> {
 
     /// The value of a product at a wavelength.
     pub(super) fn at(&self, product: &Product, nm: f64) -> f64 {
-        product.0.iter().map(|index| self.reflectances[*index].0.at(nm) * self.reflectances[*index].1).product()
+        self.value(product, |index| self.reflectances[index].0.at(nm) * self.reflectances[index].1)
     }
 }
 
@@ -90,7 +126,7 @@ fn products(count: usize) -> Vec<Product> {
         return products;
     }
     for bounces in [1, MAX_BOUNCES, 2, 4] {
-        products.extend((0..count).map(|index| Product(vec![index; bounces])));
+        products.extend((0..count).map(|index| Product::of(vec![index; bounces])));
     }
     products.truncate(MAX_PRODUCTS / 2);
     // A linear congruential sequence (Knuth, MMIX); its upper bits choose length and members.
@@ -104,7 +140,7 @@ fn products(count: usize) -> Vec<Product> {
         // Half of the paths go to and fro between two surfaces, as light between neighbouring walls does.
         let pair = [draw(count), draw(count)];
         let two_only = draw(2) == 0;
-        products.push(Product((0..bounces).map(|_| if two_only { pair[draw(2)] } else { draw(count) }).collect()));
+        products.push(Product::of((0..bounces).map(|_| if two_only { pair[draw(2)] } else { draw(count) }).collect()));
     }
     products
 }
@@ -119,8 +155,8 @@ mod tests {
             let list = products(count);
             assert_eq!(list, products(count));
             assert!(list.len() <= MAX_PRODUCTS);
-            assert!(list.iter().all(|product| (1..=MAX_BOUNCES).contains(&product.0.len())));
-            assert!(list.iter().flat_map(|product| &product.0).all(|index| *index < count));
+            assert!(list.iter().all(|product| (1..=MAX_BOUNCES).contains(&product.members.len())));
+            assert!(list.iter().flat_map(|product| &product.members).all(|index| *index < count));
         }
     }
 }
