@@ -17,14 +17,15 @@ impl Files for Disk {
             ErrorKind::NotFound => FileProblem::Missing,
             _ => FileProblem::Unreadable(e.to_string()),
         };
-        let file = File::open(path).map_err(problem)?;
-        let about = file.metadata().map_err(problem)?;
+        // Looked at before it is opened: to open a pipe would wait for a writer.
+        let about = fs::metadata(path).map_err(problem)?;
         if !about.is_file() {
             return Err(FileProblem::Unreadable("it is not a file".to_owned()));
         }
         if about.len() > most_bytes {
             return Err(FileProblem::TooLong { bytes: about.len() });
         }
+        let file = File::open(path).map_err(problem)?;
         let mut bytes = Vec::new();
         // A file that grows meanwhile is cut at the limit plus one byte, and so noticed.
         file.take(most_bytes + 1).read_to_end(&mut bytes).map_err(problem)?;
