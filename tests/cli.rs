@@ -298,3 +298,34 @@ fn the_exit_code_stands_when_nobody_reads_stderr() {
         assert_eq!(status.code(), Some(2));
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_link_may_lead_anywhere_within_the_root_but_not_out_of_it() {
+    use std::os::unix::fs::symlink;
+    let folder = scratch("links");
+    std::fs::create_dir_all(folder.join("lab/scenes")).unwrap();
+    std::fs::create_dir_all(folder.join("lab/curves")).unwrap();
+    let curve = "400,1\n700,2\n";
+    for file in ["outside.csv", "lab/curves/inside.csv"] {
+        std::fs::write(folder.join(file), curve).unwrap();
+    }
+    symlink("../curves/inside.csv", folder.join("lab/scenes/in.csv")).unwrap();
+    symlink("../../outside.csv", folder.join("lab/scenes/out.csv")).unwrap();
+    // A root that is itself reached by a link is a root like any other.
+    symlink("lab", folder.join("by-link")).unwrap();
+    for (curve, code) in [("in", 0), ("out", 2)] {
+        std::fs::write(folder.join(format!("lab/scenes/{curve}.ron")), lamp_scene(&format!("{curve}.csv"))).unwrap();
+        let (name, lab) = (format!("{curve}.ron"), folder.join("lab"));
+        for (from, path) in
+            [(folder.join("lab/scenes"), name.clone()), (lab, format!("scenes/{name}")), (folder.clone(), format!("by-link/scenes/{name}"))]
+        {
+            let output = Command::new(env!("CARGO_BIN_EXE_etendue")).args(["check", &path]).current_dir(from).output().unwrap();
+            assert_eq!(output.status.code(), Some(code), "{path}: {}", stderr(&output));
+            assert_eq!(stderr(&output).contains("the link leads out of the root"), code == 2, "{path}: {}", stderr(&output));
+        }
+    }
+    let (scene, root) = (folder.join("lab/scenes/out.ron"), folder.to_str().unwrap());
+    let output = etendue(&["check", scene.to_str().unwrap(), "--root", root]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
