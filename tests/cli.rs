@@ -123,6 +123,10 @@ fn bad_arguments_are_told_with_exit_code_two() {
         (vec!["measure", scene, "--budget", "2"], "a positive time with its unit"),
         (vec!["measure", scene, "--samples", "0"], "0"),
         (vec!["measure", scene, "--samples", "10", "--target", "1%"], "cannot be used with"),
+        (vec!["measure", scene, "--seed", "-1"], "0 to 18446744073709551615"),
+        (vec!["measure", scene, "--seed", "18446744073709551616"], "0 to 18446744073709551615"),
+        (vec!["measure", scene, "--samples", "-1"], "1 to 4294967296"),
+        (vec!["measure", scene, "--threads", "-1"], "1 to 1024"),
         (vec!["measure", scene, "--format", "xml"], "json"),
         (vec!["measur", scene], "measure"),
         (vec!["explain", scene, "--without", "nothing_block"], "nothing_blocks"),
@@ -193,4 +197,135 @@ fn the_json_is_the_same_for_any_number_of_threads() {
     assert!(one.contains("\"samples\"") && one.contains("\"schema\": 1"));
     assert_eq!(one, of("2"));
     assert_eq!(one, of("8"));
+}
+
+/// A scene of one lamp with the given spectrum and one meter.
+fn lamp_scene(spectrum: &str) -> String {
+    format!(
+        "Scene(
+        sources: [(name: \"lamp\", shape: Point, at: (0, 0, 2), strength: Candela(100), spectrum: \"{spectrum}\")],
+        instruments: [(name: \"meter\", at: (0, 0, 0), facing: (0, 0, 1),
+            sensor: Sensor(title: \"ideal\", aperture: Point, acceptance: Cosine,
+                           channels: [(name: \"E_v\", responsivity: \"V\", reads: Illuminance)]))],
+    )"
+    )
+}
+
+#[test]
+fn decimal_commas_are_named_whatever_separates_the_columns() {
+    let folder = scratch("decimal-comma");
+    let scene = folder.join("scene.ron");
+    std::fs::write(&scene, lamp_scene("lamp.csv")).unwrap();
+    for rows in ["400;1,5\n500;2,5\n", "nm,value\n400;1,5\n500;2,5\n", "nm,value\n400,5;1,5\n500,5;2,5\n", "400,5 1,5\n500,5 2,5\n"] {
+        std::fs::write(folder.join("lamp.csv"), rows).unwrap();
+        let output = etendue(&["check", scene.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2), "{rows}");
+        assert!(stderr(&output).contains("decimal comma"), "{rows}{}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_dot_in_the_name_of_a_scene_stays_in_the_name_of_its_readings() {
+    let folder = scratch("dots");
+    let out = folder.join("out");
+    for name in ["a.b.ron", "a.c.ron"] {
+        std::fs::write(folder.join(name), lamp_scene("A")).unwrap();
+        let output = etendue(&["measure", folder.join(name).to_str().unwrap(), "--out", out.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    }
+    let mut names: Vec<_> = std::fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, ["a.b.txt", "a.c.txt"]);
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_told_with_what_to_type() {
+    let folder = scratch("unwritable");
+    std::fs::write(folder.join("file"), "").unwrap();
+    std::fs::create_dir_all(folder.join("taken/photometric-bench.txt")).unwrap();
+    for out in ["file", "file/below", "taken"] {
+        let output = etendue(&["measure", "scenes/photometric-bench.ron", "--out", folder.join(out).to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2), "{out}: {}", stderr(&output));
+        assert!(output.stdout.is_empty(), "{out}");
+        assert!(stderr(&output).contains("--out takes a folder that can be written"), "{out}: {}", stderr(&output));
+    }
+    assert_eq!(std::fs::read_dir(folder.join("taken")).unwrap().count(), 1, "nothing half-written is left behind");
+}
+
+/// A limit on the length of a file stands in for a full disk: it fails in the middle of writing as well.
+#[cfg(unix)]
+#[test]
+fn what_does_not_fit_on_the_disk_fails_with_exit_code_one_and_leaves_nothing() {
+    let folder = scratch("full");
+    let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" measure scenes/photometric-bench.ron --format json --out \"$1\"";
+    let output = Command::new("sh")
+        .args(["-c", script, env!("CARGO_BIN_EXE_etendue"), folder.to_str().unwrap()])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("cannot write"), "{}", stderr(&output));
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_place_of_a_file_is_refused_and_not_waited_for() {
+    let folder = scratch("pipe");
+    let pipe = folder.join("pipe.csv");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let scene = folder.join("scene.ron");
+    std::fs::write(&scene, lamp_scene("pipe.csv")).unwrap();
+    for path in [&pipe, &scene] {
+        let output = etendue(&["check", path.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("it is not a file"), "{}", stderr(&output));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn the_exit_code_stands_when_nobody_reads_stderr() {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let mut nowhere: Vec<std::process::Stdio> = vec![writer.into()];
+    if let Ok(full) = std::fs::OpenOptions::new().write(true).open("/dev/full") {
+        nowhere.push(full.into());
+    }
+    for stderr in nowhere {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
+        let status = command.args(["check", "scenes/no-such-scene.ron"]).current_dir(root()).stderr(stderr).status().unwrap();
+        assert_eq!(status.code(), Some(2));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_may_lead_anywhere_within_the_root_but_not_out_of_it() {
+    use std::os::unix::fs::symlink;
+    let folder = scratch("links");
+    std::fs::create_dir_all(folder.join("lab/scenes")).unwrap();
+    std::fs::create_dir_all(folder.join("lab/curves")).unwrap();
+    let curve = "400,1\n700,2\n";
+    for file in ["outside.csv", "lab/curves/inside.csv"] {
+        std::fs::write(folder.join(file), curve).unwrap();
+    }
+    symlink("../curves/inside.csv", folder.join("lab/scenes/in.csv")).unwrap();
+    symlink("../../outside.csv", folder.join("lab/scenes/out.csv")).unwrap();
+    // A root that is itself reached by a link is a root like any other.
+    symlink("lab", folder.join("by-link")).unwrap();
+    for (curve, code) in [("in", 0), ("out", 2)] {
+        std::fs::write(folder.join(format!("lab/scenes/{curve}.ron")), lamp_scene(&format!("{curve}.csv"))).unwrap();
+        let (name, lab) = (format!("{curve}.ron"), folder.join("lab"));
+        for (from, path) in
+            [(folder.join("lab/scenes"), name.clone()), (lab, format!("scenes/{name}")), (folder.clone(), format!("by-link/scenes/{name}"))]
+        {
+            let output = Command::new(env!("CARGO_BIN_EXE_etendue")).args(["check", &path]).current_dir(from).output().unwrap();
+            assert_eq!(output.status.code(), Some(code), "{path}: {}", stderr(&output));
+            assert_eq!(stderr(&output).contains("the link leads out of the root"), code == 2, "{path}: {}", stderr(&output));
+        }
+    }
+    let (scene, root) = (folder.join("lab/scenes/out.ron"), folder.to_str().unwrap());
+    let output = etendue(&["check", scene.to_str().unwrap(), "--root", root]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }

@@ -203,6 +203,14 @@ impl Reader {
     }
 
     fn read_row(&mut self, fields: &[Field<'_>]) {
+        if self.separator == Some(Separator::Comma)
+            && let Some((field, at)) = fields.iter().find_map(|field| Some((field, field.text.find(';')?)))
+        {
+            let message = "a semicolon in a table whose columns are separated by commas";
+            let help = "if the commas here are decimal commas, write decimal points; separate all columns alike, as in `400;1.5`";
+            self.problem(field.column + field.text[..at].chars().count(), message, help);
+            return;
+        }
         if self.width.is_none() {
             self.set_width(fields.len());
         }

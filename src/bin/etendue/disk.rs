@@ -2,14 +2,17 @@
 
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 use etendue::scene::{FileProblem, Files, Scene, read_scene};
 
 use crate::Failure;
 
 /// The disk, as the library sees it.
-pub(crate) struct Disk;
+pub(crate) struct Disk {
+    /// The folder that no file may lie outside of, symbolic links followed. The library sees that no name leads out of it.
+    root: PathBuf,
+}
 
 impl Files for Disk {
     fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileProblem> {
@@ -17,14 +20,20 @@ impl Files for Disk {
             ErrorKind::NotFound => FileProblem::Missing,
             _ => FileProblem::Unreadable(e.to_string()),
         };
-        let file = File::open(path).map_err(problem)?;
-        let about = file.metadata().map_err(problem)?;
+        let path = fs::canonicalize(path).map_err(problem)?;
+        let root = fs::canonicalize(&self.root).map_err(problem)?;
+        if !path.starts_with(&root) {
+            return Err(FileProblem::Unreadable(format!("the link leads out of the root `{}`", root.display())));
+        }
+        // Looked at before it is opened: to open a pipe would wait for a writer.
+        let about = fs::metadata(&path).map_err(problem)?;
         if !about.is_file() {
             return Err(FileProblem::Unreadable("it is not a file".to_owned()));
         }
         if about.len() > most_bytes {
             return Err(FileProblem::TooLong { bytes: about.len() });
         }
+        let file = File::open(path).map_err(problem)?;
         let mut bytes = Vec::new();
         // A file that grows meanwhile is cut at the limit plus one byte, and so noticed.
         file.take(most_bytes + 1).read_to_end(&mut bytes).map_err(problem)?;
@@ -49,7 +58,27 @@ pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
         None => through_scenes_folder(path),
         Some(_) => path.to_owned(),
     };
-    read_scene(&path, &Disk, root).map_err(|problems| Failure::Input(problems.to_string()))
+    let folder = root.map_or_else(|| root_of(&path), PathBuf::from);
+    // The empty path is the current folder to the library, and nothing to the disk.
+    let disk = Disk { root: Path::new(".").join(folder) };
+    read_scene(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))
+}
+
+/// The root of a scene as [`read_scene`] has it: the parent of the innermost folder `scenes` on its way, else its own folder.
+fn root_of(scene: &str) -> PathBuf {
+    let mut path = PathBuf::new();
+    for part in Path::new(scene).components() {
+        match part {
+            Component::ParentDir if matches!(path.components().next_back(), Some(Component::Normal(_))) => {
+                path.pop();
+            }
+            Component::CurDir => {}
+            part => path.push(part),
+        }
+    }
+    path.pop();
+    let holder = path.ancestors().find(|folder| folder.file_name().is_some_and(|name| name == "scenes")).and_then(Path::parent);
+    holder.map_or(path.clone(), Path::to_owned)
 }
 
 /// The path by way of the folder `scenes` in which the program runs, if it does: `bench.ron` becomes `../scenes/bench.ron`.

@@ -8,13 +8,12 @@
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
-#![allow(clippy::print_stdout, clippy::print_stderr)]
-
 mod check;
 mod disk;
 mod explain;
 mod measure;
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -54,20 +53,25 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Input(message)) => {
-            eprintln!("{}", message.trim_end());
+            complain(&message);
             ExitCode::from(2)
         }
         Err(Failure::Run(message)) => {
-            eprintln!("{}", message.trim_end());
+            complain(&message);
             ExitCode::FAILURE
         }
     }
 }
 
+/// Says on stderr what is wrong. If nobody can be told, the exit code still says it.
+fn complain(message: &str) {
+    let _ = writeln!(std::io::stderr(), "{}", message.trim_end());
+}
+
 /// Prints to stdout; a reader that has gone away (`| head`) is no failure.
 fn print(text: &str) -> Result<(), Failure> {
-    use std::io::Write;
-    match std::io::stdout().write_all(text.as_bytes()) {
+    let mut out = std::io::stdout();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::Run(format!("error: cannot write to stdout: {e}"))),
         _ => Ok(()),
     }

@@ -1,6 +1,7 @@
 //! `etendue measure SCENE`: read every instrument.
 
-use std::io::IsTerminal;
+use std::ffi::OsString;
+use std::io::{Error, ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -25,14 +26,14 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, conflicts_with = "samples")]
     budget: Option<f64>,
     /// Take this many samples for each sampled contribution, rounded up to 16 times a power of two.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=(1 << 32)))]
+    #[arg(long, value_name = "N", value_parser = whole(1, 1 << 32), allow_hyphen_values = true)]
     samples: Option<u64>,
     /// Seed of the random numbers: the same seed gives the same bits.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX), allow_hyphen_values = true, default_value_t = 0)]
     seed: u64,
     /// Threads; as many as there are cores by default. Readings do not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = whole(1, 1024), allow_hyphen_values = true)]
+    threads: Option<u64>,
     /// How to write the readings.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -57,11 +58,19 @@ enum Format {
 }
 
 impl Format {
-    fn write(self, measurement: &Measurement) -> (String, &'static str) {
+    fn extension(self) -> &'static str {
         match self {
-            Format::Text => (text::to_text(measurement), "txt"),
-            Format::Json => (json::to_json(measurement), "json"),
-            Format::Csv => (csv::to_csv(measurement), "csv"),
+            Format::Text => "txt",
+            Format::Json => "json",
+            Format::Csv => "csv",
+        }
+    }
+
+    fn write(self, measurement: &Measurement) -> String {
+        match self {
+            Format::Text => text::to_text(measurement),
+            Format::Json => json::to_json(measurement),
+            Format::Csv => csv::to_csv(measurement),
         }
     }
 }
@@ -78,6 +87,13 @@ fn share(given: &str) -> Result<f64, String> {
         }
         Ok(x) if x > 0.0 && x.is_finite() => Ok(x * scale),
         _ => Err("a positive share such as 0.1% or 0.001".to_owned()),
+    }
+}
+
+fn whole(lowest: u64, highest: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |given| match given.trim().parse() {
+        Ok(n) if (lowest..=highest).contains(&n) => Ok(n),
+        _ => Err(format!("a whole number, {lowest} to {highest}")),
     }
 }
 
@@ -103,30 +119,56 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         budget_seconds: arguments.budget,
         samples: arguments.samples,
     };
+    let target = arguments.out.as_deref().map(|folder| prepared(folder, &arguments.scene, arguments.format.extension())).transpose()?;
     let bar = progress_bar();
     let start = Instant::now();
     let watch = Watch { now: &|| start.elapsed().as_secs_f64(), progress: &|share| bar.set_position((1000.0 * share) as u64) };
-    let threads = arguments.threads.map(usize::from);
+    let threads = arguments.threads.and_then(|n| usize::try_from(n).ok());
     let measured = with_threads(threads, || measure(&scene, &plan, &stop, arguments.seed, &watch));
     bar.finish_and_clear();
     let measurement = measured.map_err(|e| Failure::Run(format!("error: {e}")))?;
-    let (written, extension) = arguments.format.write(&measurement);
-    match &arguments.out {
+    let written = arguments.format.write(&measurement);
+    match &target {
         None => print(&written),
-        Some(folder) => save(folder, &arguments.scene, extension, &written),
+        Some(target) => save(target, &written),
+    }
+}
+
+/// The file that the readings go to, its folder made: a place that cannot be used is told before the time of a measurement is spent.
+fn prepared(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, Failure> {
+    let target = folder.join(with_appended(Path::new(scene).file_stem().unwrap_or_default(), extension));
+    std::fs::create_dir_all(folder).map_err(|e| unwritable(folder, &e))?;
+    match target.is_dir() {
+        true => Err(unwritable(&target, &Error::from(ErrorKind::IsADirectory))),
+        false => Ok(target),
     }
 }
 
 /// Writes beside the target first and then moves: there is never half a file.
-fn save(folder: &Path, scene: &str, extension: &str, written: &str) -> Result<(), Failure> {
-    let name = Path::new(scene).file_stem().unwrap_or_default();
-    let target = folder.join(name).with_extension(extension);
-    let partial = target.with_extension(format!("{extension}.partial"));
-    let failed = |e: std::io::Error| Failure::Run(format!("error: cannot write `{}`: {e}", target.display()));
-    std::fs::create_dir_all(folder).map_err(failed)?;
-    std::fs::write(&partial, written).map_err(failed)?;
-    std::fs::rename(&partial, &target).map_err(failed)?;
+fn save(target: &Path, written: &str) -> Result<(), Failure> {
+    let partial = PathBuf::from(with_appended(target, "partial"));
+    std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target)).map_err(|e| {
+        let _ = std::fs::remove_file(&partial);
+        unwritable(target, &e)
+    })?;
     print(&format!("{}\n", target.display()))
+}
+
+/// The name with an extension more; a dot that the name has itself stays.
+fn with_appended(name: impl Into<OsString>, extension: &str) -> OsString {
+    let mut name = name.into();
+    name.push(".");
+    name.push(extension);
+    name
+}
+
+/// A full disk is nobody's mistake; any other place that cannot be written to is for whoever named it to change.
+fn unwritable(path: &Path, e: &Error) -> Failure {
+    let message = format!("error: cannot write `{}`: {e}", path.display());
+    match e.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge | ErrorKind::WriteZero => Failure::Run(message),
+        _ => Failure::Input(format!("{message}\n  = help: --out takes a folder that can be written")),
+    }
 }
 
 /// A bar on a terminal, nothing elsewhere.
