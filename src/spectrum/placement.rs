@@ -55,6 +55,19 @@ impl<'a> Placement<'a> {
         placement
     }
 
+    /// The intervals between given nodes, two or more, strictly increasing.
+    pub(super) fn at_nodes(points: &'a [Point], terms: usize, tests: &'a TestProducts<'a>, nodes_nm: &[f64]) -> Self {
+        let mut placement = Self { points, terms, tests, intervals: Vec::new(), shares: shares(points, terms, tests) };
+        let last = nodes_nm.len().saturating_sub(2);
+        for (index, ends) in nodes_nm.windows(2).enumerate() {
+            // Points outside belong to the first and the last interval.
+            let start = if index == 0 { 0 } else { points.partition_point(|point| point.nm < ends[0]) };
+            let end = if index == last { points.len() } else { points.partition_point(|point| point.nm < ends[1]) };
+            placement.intervals.push(placement.interval(ends[0], ends[1], start..end));
+        }
+        placement
+    }
+
     pub(super) fn nodes(&self) -> usize {
         self.intervals.len() + 1
     }

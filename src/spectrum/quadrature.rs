@@ -22,6 +22,9 @@ pub const DEFAULT_TARGET_RESIDUAL: f64 = 1e-5;
 /// Gauss–Legendre nodes a segment for the test integrals: exact up to degree 7 between breakpoints.
 const TEST_NODES: usize = 4;
 
+/// The same for the residual that is stated: other points, and more of them.
+const CHECK_NODES: usize = 9;
+
 /// No segment between test points is longer than this part of the range of the reflectances' tables.
 const SEGMENTS: f64 = 40.0;
 
@@ -38,7 +41,7 @@ impl SpectralNodes {
     /// `max_nodes` (at least 2 unless the scene is grey), fewer if the [`residual`](Self::residual) falls to `target_residual` before.
     /// No node at all if no term has a common wavelength.
     pub fn compile(terms: &[(&Density, &Factor)], reflectances: &[&Factor], max_nodes: usize, target_residual: f64) -> Self {
-        let points = term_points(terms, reflectances);
+        let points = term_points(terms, reflectances, TEST_NODES);
         let Some(heaviest) = points.iter().max_by(|a, b| a.weight.total_cmp(&b.weight)) else {
             return Self { wavelengths_nm: Vec::new(), residual: 0.0, path_residual: 0.0 };
         };
@@ -59,8 +62,12 @@ impl SpectralNodes {
                 break;
             }
         }
-        let (residual, path_residual) = placement.residuals();
-        Self { wavelengths_nm: placement.node_wavelengths_nm(), residual, path_residual }
+        let wavelengths_nm = placement.node_wavelengths_nm();
+        // The figure that is stated comes from points that had no part in it.
+        let points = term_points(terms, reflectances, CHECK_NODES);
+        let tests = TestProducts::new(&coloured, points.iter().map(|point| point.nm).collect());
+        let (residual, path_residual) = Placement::at_nodes(&points, terms.len(), &tests, &wavelengths_nm).residuals();
+        Self { wavelengths_nm, residual, path_residual }
     }
 
     /// The nodes with the default limits.
@@ -112,8 +119,8 @@ fn hat(nodes: &[f64], k: usize) -> Factor {
     Factor::Table(Table::from_valid(nodes[from..=to].to_vec(), values, Outside::Hold))
 }
 
-/// All terms as points, each term's weights summing to 1, rising in wavelength.
-fn term_points(terms: &[(&Density, &Factor)], reflectances: &[&Factor]) -> Vec<Point> {
+/// All terms as points, `nodes` a segment, each term's weights summing to 1, rising in wavelength.
+fn term_points(terms: &[(&Density, &Factor)], reflectances: &[&Factor], nodes: usize) -> Vec<Point> {
     let mut cuts_nm = Vec::new();
     for reflectance in reflectances {
         reflectance.push_breakpoints(0.0, f64::INFINITY, &mut cuts_nm);
@@ -124,7 +131,7 @@ fn term_points(terms: &[(&Density, &Factor)], reflectances: &[&Factor]) -> Vec<P
     let mut points = Vec::new();
     for (term, (density, factor)) in terms.iter().enumerate() {
         let first = points.len();
-        let continuum = points_and_weights(density, &[factor], &cuts_nm, TEST_NODES);
+        let continuum = points_and_weights(density, &[factor], &cuts_nm, nodes);
         points.extend(continuum.into_iter().map(|(nm, weight)| Point { nm, weight, term }));
         let lines = density.lines().into_iter();
         points.extend(lines.map(|line| {
