@@ -168,9 +168,13 @@ fn a_meter_on_a_luminous_wall_sees_all_but_that_wall() {
     for (reading, truth) in readings.iter().zip([PI, 0.5 * PI]) {
         assert!((reading.value / truth - 1.0).abs() < 1e-9, "{}", reading.value);
     }
-    let text = inside("Sphere(1)", "(at: (1, 0, 0), facing: (-1, 0, 0)), (at: (0, 0.6, 0.8), facing: (0, -0.6, -0.8))");
-    for reading in read(&text, 16) {
-        assert!((reading.value / PI - 1.0).abs() < 1e-9, "{}", reading.value);
+    // On the wall of a luminous sphere: facing the centre the whole hemisphere is bright, along the wall its inner half.
+    let text = inside(
+        "Sphere(1)",
+        "(at: (1, 0, 0), facing: (-1, 0, 0)), (at: (0, 0.6, 0.8), facing: (0, -0.6, -0.8)), (at: (1, 0, 0), facing: (0, 0, 1))",
+    );
+    for (reading, truth) in read(&text, 16).iter().zip([PI, PI, 0.5 * PI]) {
+        assert!((reading.value / truth - 1.0).abs() < 1e-9, "{}", reading.value);
     }
 }
 

@@ -7,11 +7,13 @@
 //! | disc or rectangle | hemisphere | solid angle of the aperture, coaxial discs, exchange of polygons where they apply |
 //! | disc or rectangle | any | adaptive quadrature of the point's formula over the aperture |
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::closed_form::aperture::{self, Bounded, aperture_average};
-use super::closed_form::{directional, disc, exchange, point, polygon, polygon_in_cone, sphere};
+use super::closed_form::{cone, directional, disc, exchange, point, polygon, polygon_in_cone, sphere};
 use crate::geometry::mesh::Mesh;
 use crate::geometry::rays::COINCIDENT;
-use crate::geometry::shape::{Shape, Side};
+use crate::geometry::shape::{Shape, Side, Sphere};
 use crate::math::DVec3;
 use crate::scene::{Pose, Scene};
 use crate::sensor::{Acceptance, Aperture, Sensor};
@@ -126,7 +128,7 @@ fn over_hemisphere(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> f64 {
         Shape::Disc(d) => disc::disc(d.centre - at, side.sign() * d.normal, d.radius_m, normal),
         Shape::Sphere(s) => match (side, s.holds(at)) {
             (Side::Front, false) => sphere::sphere(s.centre - at, s.radius_m, normal),
-            (Side::Back, true) => std::f64::consts::PI,
+            (Side::Back, true) => from_within(s, at, normal, FRAC_PI_2),
             _ => 0.0,
         },
         Shape::Mesh(m) => lit_triangles(m, side, at, normal).map(|corners| polygon::polygon(&corners, normal)).sum(),
@@ -153,11 +155,22 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
         }
         Shape::Sphere(s) => match (side, s.holds(at)) {
             (Side::Front, false) => sphere::sphere_in_cone(s.centre - at, s.radius_m, normal, half_angle_rad),
-            (Side::Back, true) => super::closed_form::cone::projected_solid_angle(half_angle_rad),
+            (Side::Back, true) => from_within(s, at, normal, half_angle_rad),
             _ => 0.0,
         },
         Shape::Mesh(m) => lit_triangles(m, side, at, normal).map(|corners| of_polygon(&corners)).sum(),
     }
+}
+
+/// Projected solid angle under which a receiver within a luminous sphere sees it: all that it accepts, or, on the wall itself, the half
+/// space on the inner side, as a receiver on a luminous face does not see that face.
+fn from_within(s: &Sphere, at: DVec3, normal: DVec3, half_angle_rad: f64) -> f64 {
+    let to = s.centre - at;
+    let rounding = 4.0 * f64::EPSILON * (s.centre.abs().max_element() + at.abs().max_element());
+    if to.length() < s.radius_m * (1.0 - COINCIDENT) - rounding {
+        return cone::projected_solid_angle(half_angle_rad);
+    }
+    cone::half_space_in_cone(to, normal, half_angle_rad)
 }
 
 /// Corners relative to a receiver, in the order that shows the emitting side counter-clockwise.

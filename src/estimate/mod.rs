@@ -149,6 +149,15 @@ pub struct Estimates {
 /// Why there is no estimate.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EstimateError {
+    /// A reading beyond the range of double precision.
+    #[error(
+        "the reading of `{instrument}` is beyond the range of numbers, some 1e308: a source is too strong or too close; \
+         give strengths and distances that a laboratory could have"
+    )]
+    OutOfRange {
+        /// The instrument.
+        instrument: String,
+    },
     /// Light is never absorbed.
     #[error(
         "the instrument `{instrument}` has no finite reading: a path was reflected 100000 times without loss. \

@@ -70,7 +70,7 @@ pub struct Measurement {
 /// Reads every instrument of a scene according to a plan.
 ///
 /// # Errors
-/// When light is never absorbed, so that a reading is not finite.
+/// When light is never absorbed, so that a reading is not finite, or a reading is beyond the range of numbers.
 pub fn measure(scene: &Scene, plan: &Plan, stop: &Stop, seed: u64, watch: &Watch<'_>) -> Result<Measurement, EstimateError> {
     let start = (watch.now)();
     let estimates = estimate(scene, plan, stop, seed, watch)?;
@@ -79,7 +79,11 @@ pub fn measure(scene: &Scene, plan: &Plan, stop: &Stop, seed: u64, watch: &Watch
         let left_out: Vec<LeftOut> = (0..instrument.sensor.channels.len()).map(|c| LeftOut::of(plan, i, c)).collect();
         for (index, pose) in poses.iter().enumerate() {
             for (c, channel) in pose.channels.iter().enumerate() {
-                readings.push(read(instrument, index, c, pose, channel, &left_out[c]));
+                let reading = read(instrument, index, c, pose, channel, &left_out[c]);
+                if !(reading.value.is_finite() && reading.expanded.expanded_uncertainty.is_finite()) {
+                    return Err(EstimateError::OutOfRange { instrument: instrument.name.clone() });
+                }
+                readings.push(reading);
             }
         }
     }

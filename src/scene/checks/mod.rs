@@ -1,6 +1,7 @@
 //! Checks of a scene as a whole: what each part alone cannot show. One check a file.
 
 mod coincident_emitters;
+mod lamp_at_sensor;
 mod perfect_enclosure;
 mod sensor_on_emitter;
 #[cfg(test)]
@@ -17,5 +18,6 @@ const SAME: f64 = 1e-9;
 pub(super) fn run(scene: &Scene, places: &Places, problems: &mut Problems) {
     coincident_emitters::check(scene, places, problems);
     sensor_on_emitter::check(scene, places, problems);
+    lamp_at_sensor::check(scene, places, problems);
     perfect_enclosure::check(scene, places, problems);
 }
