@@ -52,7 +52,7 @@ pub fn estimate(scene: &Scene, plan: &Plan, stop: &Stop, seed: u64, watch: &Watc
         for first in (0..instrument.poses.len()).step_by(BATCH) {
             let indices: Vec<usize> = (first..instrument.poses.len().min(first + BATCH)).collect();
             let deadline = stop.budget_seconds.map(|b| start + b * (done + indices.len()) as f64 / all as f64);
-            let batch = Batch { task: &task, stop, seed, watch, deadline, poses: all };
+            let batch = Batch { task: &task, stop, seed, watch, deadline, done, poses: all };
             let (estimates, counted) = batch.run(&indices)?;
             done += indices.len();
             counters.add(&counted);
@@ -71,6 +71,8 @@ struct Batch<'a> {
     seed: u64,
     watch: &'a Watch<'a>,
     deadline: Option<f64>,
+    /// Poses that earlier batches have finished, and poses in all.
+    done: usize,
     poses: usize,
 }
 
@@ -117,6 +119,8 @@ impl Batch<'_> {
             // A round doubles a job: the next one costs up to twice this one.
             let late = self.deadline.is_some_and(|d| (self.watch.now)() + 2.0 * round > d);
             let next = self.assess(&mut states, late);
+            let finished = states.iter().filter(|s| s.standing == Standing::Finished).count();
+            (self.watch.progress)((self.done + finished) as f64 / self.poses as f64);
             if next.is_empty() {
                 break;
             }
