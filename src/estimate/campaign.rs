@@ -7,7 +7,8 @@
 //!
 //! A run that stops at the first small spread favours spreads that are small by luck: its intervals cover too little, and where the
 //! spread goes with the value it is biased. So nothing of the run that decides is reported, and the reading is planned with a margin
-//! that makes it rare that it has to go on. Rounds and their pieces depend on the numbers of samples alone, never on time or
+//! that makes it rare that it has to go on. Only a run that never gets there reports its trial: out of time, out of samples, or when
+//! nothing was found at all; it says that the target was not met. Rounds and their pieces depend on the numbers of samples alone, never on time or
 //! threads.
 
 use super::run::in_order;
@@ -39,7 +40,7 @@ const MOST_SAMPLES_IN_ALL: u64 = 1 << 30;
 
 /// Estimates every term of a plan, for every pose of every instrument.
 pub fn estimate(scene: &Scene, plan: &Plan, stop: &Stop, seed: u64, watch: &Watch<'_>) -> Result<Estimates, EstimateError> {
-    let world = if plan.needs_rays { World::new(scene.elements.iter().map(|e| Some(&e.shape))) } else { World::default() };
+    let world = if plan.needs_rays { World::new(scene.elements.iter().map(|e| &e.shape)) } else { World::default() };
     let mut counters = Counters { bvh_nodes: world.bvh_nodes() as u64, ..Counters::default() };
     let all: usize = scene.instruments.iter().map(|i| i.poses.len()).sum();
     let start = (watch.now)();

@@ -25,8 +25,8 @@ pub(super) struct Task<'a> {
     pub(super) formulas: Vec<(usize, Option<usize>)>,
     /// Sources to which one connection is made, and whether it is tested.
     pub(super) connections: Vec<(usize, bool)>,
-    /// (channel, source) whose reflections are summed.
-    pub(super) spheres: Vec<(usize, usize)>,
+    /// Channel and sum of all reflections, the same at every place of a sphere's wall.
+    pub(super) spheres: Vec<(usize, f64)>,
     pub(super) jobs: Vec<(Job<'a>, String)>,
     /// Jobs that run in any case come first.
     pub(super) certain: usize,
@@ -38,6 +38,7 @@ impl<'a> Task<'a> {
         let channels = &instrument.sensor.channels;
         let mut weights = vec![vec![0.0; scene.sources.len()]; channels.len()];
         let mut task_terms: Vec<&crate::plan::Term> = Vec::new();
+        let sphere = ClosedSphere::of(scene);
         let mut spheres = Vec::new();
         let mut reflected = false;
         let mut seen = vec![false; scene.sources.len()];
@@ -50,7 +51,11 @@ impl<'a> Task<'a> {
             };
             last = Some((c, s));
             match (term.id.transport, term.method) {
-                (Transport::Reflected, Method::ClosedSphere) => spheres.push((c, s)),
+                (Transport::Reflected, Method::ClosedSphere) => {
+                    // The plan chose the sum because there is one; a NaN would end as an error, not as a reading.
+                    let sum = sphere.as_ref().and_then(|sphere| sphere.reflected(scene, &scene.sources[s]));
+                    spheres.push((c, weights[c][s] * sum.unwrap_or(f64::NAN)));
+                }
                 (Transport::Reflected, _) => reflected = true,
                 // Which method serves a direct term does not depend on the channel.
                 (Transport::Direct, _) if !std::mem::replace(&mut seen[s], true) => task_terms.push(term),
@@ -142,9 +147,8 @@ impl<'a> Task<'a> {
             counters.rays += rays;
             add(source, value, 0.0);
         }
-        for &(c, s) in &self.spheres {
-            let reflected = ClosedSphere::of(self.scene).and_then(|sphere| sphere.reflected(self.scene, &self.scene.sources[s]));
-            sums[c].add(self.weights[c][s] * reflected.unwrap_or(f64::NAN));
+        for &(c, value) in &self.spheres {
+            sums[c].add(value);
             exact[c].terms += 1;
         }
         for (exact, sum) in exact.iter_mut().zip(&sums) {

@@ -37,8 +37,6 @@ enum Place {
     Disc(usize),
     Ball(usize),
     Mesh(usize),
-    /// Left out: no ray can meet it.
-    Nowhere,
 }
 
 /// A point on a surface.
@@ -51,31 +49,30 @@ pub struct SurfacePoint {
 }
 
 impl World {
-    /// Prepares the shapes; the index of a shape in the list is its element. `None` stands for an element that no ray can meet.
+    /// Prepares the shapes; the index of a shape in the list is its element.
     #[must_use]
-    pub fn new<'a>(shapes: impl IntoIterator<Item = Option<&'a Shape>>) -> World {
+    pub fn new<'a>(shapes: impl IntoIterator<Item = &'a Shape>) -> World {
         let mut world = World::default();
         for (element, shape) in shapes.into_iter().enumerate() {
             let element = u32::try_from(element).unwrap_or(NONE);
             world.places.push(match shape {
-                None => Place::Nowhere,
-                Some(Shape::Rectangle(r)) => {
+                Shape::Rectangle(r) => {
                     world.rectangles.push(Flat::rectangle(element, r));
                     Place::Rectangle(world.rectangles.len() - 1)
                 }
-                Some(Shape::Polygon(p)) => {
+                Shape::Polygon(p) => {
                     world.polygons.push(Outline::new(element, p));
                     Place::Polygon(world.polygons.len() - 1)
                 }
-                Some(Shape::Disc(d)) => {
+                Shape::Disc(d) => {
                     world.discs.push(Flat::disc(element, d));
                     Place::Disc(world.discs.len() - 1)
                 }
-                Some(Shape::Sphere(s)) => {
+                Shape::Sphere(s) => {
                     world.balls.push(Ball::new(element, s));
                     Place::Ball(world.balls.len() - 1)
                 }
-                Some(Shape::Mesh(m)) => {
+                Shape::Mesh(m) => {
                     world.meshes.push((element, Arc::clone(m)));
                     Place::Mesh(world.meshes.len() - 1)
                 }
@@ -105,7 +102,7 @@ impl World {
     /// Whether there is nothing to meet.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.places.iter().all(|p| matches!(p, Place::Nowhere))
+        self.places.is_empty()
     }
 
     /// Nodes of all hierarchies.
@@ -181,7 +178,6 @@ impl World {
                 let (point, normal) = self.meshes[i].1.surface_point(part, point);
                 SurfacePoint { point, normal }
             }
-            Place::Nowhere => SurfacePoint { point, normal: -direction },
         }
     }
 }

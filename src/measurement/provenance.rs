@@ -2,6 +2,7 @@
 
 use crate::plan::Plan;
 use crate::scene::Scene;
+use crate::scene::files::hashed;
 
 /// What is needed to repeat a reading.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,11 +17,6 @@ pub struct Provenance {
 
 impl Provenance {
     pub(super) fn of(scene: &Scene, plan: &Plan) -> Provenance {
-        Provenance { version: env!("CARGO_PKG_VERSION"), scene_hash: scene.hash, plan_hash: fnv1a(plan.explain(scene).as_bytes()) }
+        Provenance { version: env!("CARGO_PKG_VERSION"), scene_hash: scene.hash, plan_hash: hashed(0, plan.explain(scene).as_bytes()) }
     }
-}
-
-/// FNV-1a, 64 bits: tells files apart, guards against nothing.
-fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
 }

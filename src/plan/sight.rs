@@ -108,8 +108,7 @@ impl Shafts {
     pub(crate) fn new(scene: &Scene, instrument: &Instrument) -> Shafts {
         let reach = instrument.sensor.aperture.radius_m();
         let limit = instrument.sensor.acceptance.limit_rad();
-        let (low, high) =
-            instrument.poses.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p.at), high.max(p.at)));
+        let (low, high) = instrument.bounds();
         let centre = low + 0.5 * (high - low);
         let radius_m = instrument.poses.iter().map(|p| (p.at - centre).length()).fold(0.0, f64::max) + reach;
         let unseen = scene

@@ -151,7 +151,7 @@ pub(super) fn resolved(by: &str, name: &str, root: &str) -> Result<String, Strin
 }
 
 /// FNV-1a, 64 bit (Fowler, Noll, Vo; public domain), continued over more bytes.
-pub(super) fn hashed(hash: u64, bytes: &[u8]) -> u64 {
+pub(crate) fn hashed(hash: u64, bytes: &[u8]) -> u64 {
     let start = if hash == 0 { 0xcbf2_9ce4_8422_2325 } else { hash };
     bytes.iter().fold(start, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3))
 }

@@ -24,6 +24,15 @@ impl Pose {
     }
 }
 
+impl Instrument {
+    /// Corners of the smallest box, with edges along the axes, that holds the centre of every aperture, m.
+    #[must_use]
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        self.poses.iter().fold(start, |(low, high), pose| (low.min(pose.at), high.max(pose.at)))
+    }
+}
+
 /// How the poses of an instrument are arranged, for reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {

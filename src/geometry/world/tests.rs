@@ -30,7 +30,7 @@ fn one_ray(origin: DVec3, direction: DVec3, leaving: u32) -> Rays {
 
 /// A world in which every rectangle is met by itself.
 fn loose(shapes: &[Shape]) -> World {
-    let mut world = World::new(shapes.iter().map(Some));
+    let mut world = World::new(shapes);
     world.blocks.clear();
     world.loose = world.rectangles.clone();
     world
@@ -51,7 +51,7 @@ proptest! {
         let mut order = [0, 1, 2, 3, 4, 5];
         order.swap(0, swap);
         let shapes = faces(centre * scale, half * scale, turn, order);
-        let (whole, parts) = (World::new(shapes.iter().map(Some)), loose(&shapes));
+        let (whole, parts) = (World::new(&shapes), loose(&shapes));
         prop_assert_eq!(whole.blocks.len(), 1);
         prop_assert!(whole.loose.is_empty());
         let direction = (centre + towards - origin) * scale;
@@ -76,7 +76,7 @@ proptest! {
     #[test]
     fn a_ray_from_inside_a_closed_box_always_meets_it(inside in vector(-0.999..0.999), towards in vector(-1.0..1.0), half in vector(0.1..5.0)) {
         prop_assume!(towards.length() > 1e-3);
-        let world = World::new(faces(DVec3::new(3.0, -2.0, 7.0), half, DMat3::IDENTITY, [0, 1, 2, 3, 4, 5]).iter().map(Some));
+        let world = World::new(faces(DVec3::new(3.0, -2.0, 7.0), half, DMat3::IDENTITY, [0, 1, 2, 3, 4, 5]).iter());
         let mut at = DVec3::new(3.0, -2.0, 7.0) + inside * half;
         let (mut direction, mut leaving) = (towards, NONE);
         for _ in 0..20 {
@@ -94,7 +94,7 @@ proptest! {
         if let Shape::Rectangle(r) = &mut shapes[which] {
             r.half_u *= 1.0 - shift;
         }
-        prop_assert!(World::new(shapes.iter().map(Some)).blocks.is_empty());
+        prop_assert!(World::new(&shapes).blocks.is_empty());
     }
 
     #[test]
@@ -103,7 +103,7 @@ proptest! {
         prop_assume!(toward.length() > 0.1);
         let to = toward.normalize();
         let (x, _) = crate::math::frame::tangents(to);
-        let world = World::new([Some(&Shape::Sphere(Sphere { centre: far * to, radius_m: 1.0 }))]);
+        let world = World::new([&Shape::Sphere(Sphere { centre: far * to, radius_m: 1.0 })]);
         // Aimed at a point of the silhouette's disc, given relative to the centre.
         let rays = one_ray(aside * x, to, NONE);
         let expected = far - (1.0 - aside * aside).sqrt();

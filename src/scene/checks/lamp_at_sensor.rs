@@ -1,6 +1,5 @@
 //! A point source must not stand where a sensor is: `E = I cosθ / r²` has no value at r = 0.
 
-use crate::math::DVec3;
 use crate::scene::Scene;
 use crate::scene::diagnostic::Problems;
 use crate::scene::reader::Places;
@@ -10,8 +9,7 @@ use crate::source::Emitter;
 pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
     for (instrument, place) in scene.instruments.iter().zip(&places.instruments) {
         let poses = &instrument.poses;
-        let low = poses.iter().fold(DVec3::INFINITY, |low, pose| low.min(pose.at));
-        let high = poses.iter().fold(DVec3::NEG_INFINITY, |high, pose| high.max(pose.at));
+        let (low, high) = instrument.bounds();
         for source in &scene.sources {
             let Emitter::Point { at } = source.emitter else { continue };
             // Large scenes: most lamps are outside the box of the poses.

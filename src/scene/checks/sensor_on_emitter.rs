@@ -6,7 +6,6 @@
 use super::SAME;
 use super::coincident_emitters::nearest_point;
 use crate::geometry::shape::{Shape, Side};
-use crate::math::DVec3;
 use crate::scene::diagnostic::Problems;
 use crate::scene::reader::Places;
 use crate::scene::{Pose, Scene};
@@ -16,8 +15,7 @@ use crate::source::Emitter;
 pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
     for (instrument, place) in scene.instruments.iter().zip(&places.instruments) {
         let poses = &instrument.poses;
-        let low = poses.iter().fold(DVec3::INFINITY, |low, pose| low.min(pose.at));
-        let high = poses.iter().fold(DVec3::NEG_INFINITY, |high, pose| high.max(pose.at));
+        let (low, high) = instrument.bounds();
         for source in &scene.sources {
             let Emitter::Area { elements } = &source.emitter else { continue };
             let touches = |&(element, side): &(usize, Side)| {
