@@ -56,12 +56,15 @@
 //! | 1 | [`geometry`] | shapes, rays, meshes, acceleration | materials, emission |
 //! | 2 | [`source`] | where and how light is emitted | shadows, sensors |
 //! | 2 | [`surface`] | what reflects | paths |
+//! | 2 | [`observer`] | V(λ), cones, colour matching, α-opic; what a spectrum is to an eye | scenes |
 //! | 2 | [`sensor`] | aperture, acceptance, channels, readout | tracing |
+//! | 3 | [`lecture`] | the equations of a lecture by name, each a call of the library | physics of its own |
 //! | 3 | [`scene`] | the file format, its checks, its messages; instruments and their poses | estimation, hidden defaults |
 //! | 4 | [`plan`] | what will be computed, what is left out, and why; pure | rays, random numbers, clocks |
 //! | 5 | [`estimate`] | numbers for the terms of a plan, with their spread | choosing methods, dropping terms |
 //! | 6 | [`measurement`] | estimates → readings with budget and provenance | printing |
-//! | 8 | [`report`] | text, JSON, CSV | computing anything else |
+//! | 7 | [`characterization`] | quality indices of instruments | fitting, printing |
+//! | 8 | [`report`] | text, JSON, CSV, plots | computing anything else |
 //! | 9 | `bin/etendue` | arguments, files, screens | physics |
 //!
 //! # Invariants
@@ -83,11 +86,14 @@
 //! Metres, watts, nanometres in air; right-handed, z up. Angles in degrees in files, in radians in memory; units are in the names. 683
 //! lm/W at 540 THz gives K_m = 683.002 lm/W with V(λ) in air ([`quantity::constants`]). `R(ω)` does not contain the cosine.
 
+pub mod characterization;
 pub mod estimate;
 pub mod geometry;
+pub mod lecture;
 pub mod math;
 pub mod measurement;
 pub mod metrology;
+pub mod observer;
 pub mod plan;
 pub mod quantity;
 pub mod report;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Most lines of a file.
 const LONGEST: usize = 400;
 
-const LAYERS: [(&str, usize); 13] = [
+const LAYERS: [(&str, usize); 16] = [
     ("quantity", 0),
     ("metrology", 0),
     ("math", 0),
@@ -15,16 +15,19 @@ const LAYERS: [(&str, usize); 13] = [
     ("geometry", 1),
     ("source", 2),
     ("surface", 2),
+    ("observer", 2),
+    ("lecture", 3),
     ("sensor", 2),
     ("scene", 3),
     ("plan", 4),
     ("estimate", 5),
     ("measurement", 6),
+    ("characterization", 7),
     ("report", 8),
 ];
 
 /// Where a foreign crate may be named.
-const DOORS: [(&str, &[&str]); 12] = [
+const DOORS: [(&str, &[&str]); 15] = [
     ("glam", &["src/math/mod.rs"]),
     ("obvhs", &["src/geometry/bvh/"]),
     ("statrs", &["src/metrology/distribution"]),
@@ -47,6 +50,9 @@ const DOORS: [(&str, &[&str]); 12] = [
             "src/estimate/mod.rs",
         ],
     ),
+    ("roxmltree", &["src/spectrum/spdx/"]),
+    ("plotters", &["src/report/plot/"]),
+    ("resvg", &["src/report/plot/"]),
     ("clap", &["src/bin/etendue/"]),
     ("indicatif", &["src/bin/etendue/"]),
 ];

@@ -10,10 +10,18 @@
 mod behaviour;
 #[path = "reference/bench.rs"]
 mod bench;
+#[path = "reference/colour.rs"]
+mod colour;
 #[path = "reference/extreme.rs"]
 mod extreme;
+#[path = "reference/observers.rs"]
+mod observers;
+#[path = "reference/quality.rs"]
+mod quality;
 #[path = "reference/radiometry.rs"]
 mod radiometry;
+#[path = "reference/spectra.rs"]
+mod spectra;
 
 use bench::{Case, Family, cases};
 
@@ -34,7 +42,7 @@ const BEHAVIOURS: &[&str] =
     &["zero-area", "coincident", "coplanar-sensor", "behind", "empty", "laser-gap", "zero-omega", "nan-in", "rho-one", "flip"];
 
 fn families() -> Vec<(&'static str, Family)> {
-    radiometry::FAMILIES.iter().chain(extreme::FAMILIES).copied().collect()
+    [radiometry::FAMILIES, extreme::FAMILIES, spectra::FAMILIES, colour::FAMILIES, observers::FAMILIES, quality::FAMILIES].concat()
 }
 
 /// "g1c.disc-par-3" → "g1c.disc-par".
@@ -81,6 +89,11 @@ fn radiometry_agrees_with_its_closed_forms() {
 #[test]
 fn extreme_and_stiff_cases_agree_with_their_references() {
     run("g4_extreme");
+}
+
+#[test]
+fn spectra_and_observers_agree_with_their_references() {
+    run("g2_spectral");
 }
 
 #[test]

@@ -1,11 +1,14 @@
-//! Measurements as text, JSON and CSV.
+//! Measurements as text, JSON and CSV; plots.
 //!
 //! | file | what |
 //! |---|---|
 //! | `text.rs` | a table for a person |
 //! | `json.rs` | everything, for programs; numbers keep all their digits |
 //! | `csv.rs` | a row a reading, for spreadsheets |
+//! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
 pub mod csv;
 pub mod json;
+#[cfg(feature = "plot")]
+pub mod plot;
 pub mod text;

@@ -1,0 +1,1 @@
+//! Quality indices of instruments, from their curves.
