@@ -45,7 +45,7 @@ impl Chromaticity {
     /// The tristimulus values of this chromaticity with a given Y. `None` where y is zero, which no Y above 0 can have.
     pub fn with_luminance(&self, y: f64) -> Option<Tristimulus> {
         let scale = y / self.y;
-        scale.is_finite().then(|| Tristimulus { x: self.x * scale, y, z: (1.0 - self.x - self.y) * scale })
+        scale.is_finite().then_some(Tristimulus { x: self.x * scale, y, z: (1.0 - self.x - self.y) * scale })
     }
 
     /// Distance from another point in the x, y diagram.

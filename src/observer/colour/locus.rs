@@ -23,7 +23,7 @@ pub struct SpectralPoint {
 /// Empty if the step is not above zero.
 pub fn spectral_locus(matching: &[Factor; 3], from_nm: f64, to_nm: f64, step_nm: f64) -> Vec<SpectralPoint> {
     let steps = ((to_nm - from_nm) / step_nm + 1e-9).floor();
-    if !(step_nm > 0.0 && steps >= 0.0 && steps < 1e7) {
+    if !(step_nm > 0.0 && (0.0..1e7).contains(&steps)) {
         return Vec::new();
     }
     (0..=steps as usize)
