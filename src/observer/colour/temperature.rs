@@ -25,7 +25,8 @@ pub const LARGEST_DUV: f64 = 0.05;
 const LEAST_SEARCHED_K: f64 = 500.0;
 /// Points of the first search, evenly in 1/T: neighbours are closer than the locus is curved, so the nearest one has the minimum beside it.
 const COARSE: usize = 80;
-/// A black body of exactly [`LEAST_CCT_K`] may be found this much lower, by rounding.
+/// A black body of exactly [`LEAST_CCT_K`] may be found this much lower, and one of infinite temperature this far beyond the end, by
+/// rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// A correlated colour temperature and the distance from the locus.
@@ -88,6 +89,8 @@ pub fn correlated_temperature(chromaticity: Chromaticity, locus: &PlanckianLocus
         let other = if slope > 0.0 { nearest + 1 } else { nearest.wrapping_sub(1) };
         match points.get(other) {
             None if slope > 0.0 => return Err(NoTemperature::TooCold),
+            // The end of the locus itself, up to rounding.
+            None if slope >= -ROUNDING * points[nearest].duv_dbeta[0].hypot(points[nearest].duv_dbeta[1]) => 0.0,
             None => return Err(NoTemperature::BeyondInfinity),
             Some(next) => {
                 let (low, high) = (nearest.min(other), nearest.max(other));
