@@ -19,7 +19,8 @@
 //! above by less than their last digit. Source: CIE S 026:2018.
 
 use super::efficiency::{Efficiency, luminous};
-use super::embedded;
+use super::names::find;
+use super::{ObserverError, embedded};
 use crate::spectrum::{Density, Factor, library};
 
 /// One of the five α-opic action spectra.
@@ -52,6 +53,17 @@ impl AlphaOpic {
         }
     }
 
+    /// The one of this name: the adjective, "S-cone" and the like, or the index. Errors with all names if there is none.
+    pub fn named(name: &str) -> Result<Self, ObserverError> {
+        find("α-opic action spectrum", name, &Self::ALL, |receptor| match receptor {
+            Self::SCone => &["S-cone-opic", "S-cone", "cyanopic", "sc"],
+            Self::MCone => &["M-cone-opic", "M-cone", "chloropic", "mc"],
+            Self::LCone => &["L-cone-opic", "L-cone", "erythropic", "lc"],
+            Self::Rhodopic => &["rhodopic", "rod", "rh"],
+            Self::Melanopic => &["melanopic", "mel"],
+        })
+    }
+
     /// The index in symbols: "sc", "mc", "lc", "rh", "mel".
     pub fn index(self) -> &'static str {
         match self {
@@ -75,8 +87,7 @@ impl AlphaOpic {
 
     /// α-opic efficacy of luminous radiation (ELR), W/lm; none for a spectrum without luminous flux.
     pub fn efficacy_of_luminous_radiation(self, density: &Density) -> Option<f64> {
-        let luminous = luminous(density, Efficiency::Photopic1924);
-        (luminous > 0.0).then(|| self.irradiance(density) / luminous)
+        efficacy_of_luminous_radiation(density, &self.curve())
     }
 
     /// ELR of daylight D65, W/lm. NaN if the table of D65 could not be read, which the tests exclude.
@@ -105,4 +116,20 @@ impl AlphaOpic {
     pub fn daylight_efficacy_ratio(self, density: &Density) -> Option<f64> {
         Some(self.efficacy_of_luminous_radiation(density)? / self.elr_of_d65())
     }
+}
+
+/// Efficacy of luminous radiation `∫ S s dλ / (K_m ∫ S V dλ)`, W/lm, of any action spectrum; none for a spectrum without luminous flux.
+///
+/// ```
+/// use etendue::observer::alpha_opic::efficacy_of_luminous_radiation;
+/// use etendue::spectrum::{Density, Factor};
+///
+/// // All of the radiation: the reciprocal of the luminous efficacy.
+/// let green = Density::line(555.0, 3.0)?;
+/// assert_eq!(efficacy_of_luminous_radiation(&green, &Factor::ONE), Some(1.0 / 683.002));
+/// # Ok::<(), etendue::spectrum::SpectrumError>(())
+/// ```
+pub fn efficacy_of_luminous_radiation(density: &Density, action: &Factor) -> Option<f64> {
+    let luminous = luminous(density, Efficiency::Photopic1924);
+    (luminous > 0.0).then(|| density.integral(&[action]) / luminous)
 }

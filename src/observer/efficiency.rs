@@ -15,7 +15,8 @@
 //! of CIE 170-2 for V_F; they differ from 683 over the value interpolated in the 1-nm tables by less than 3e-4, which a test holds.
 //! K′_m is rounded to 1700 lm/W in much of the literature and was 1699 lm/W in CIE 191 ([`super::mesopic`]).
 
-use super::embedded;
+use super::names::find;
+use super::{ObserverError, embedded};
 use crate::quantity::constants::K_M_LM_W;
 use crate::spectrum::{Density, Factor};
 
@@ -56,6 +57,27 @@ impl Efficiency {
             Self::Physiological10 => "V_F(lambda) 10 degree",
             Self::TenDegree1964 => "V_10(lambda)",
         }
+    }
+
+    /// The function of this name: that of its table, its symbol, or an everyday name ("photopic", "scotopic"). Errors with all names
+    /// if there is none.
+    ///
+    /// ```
+    /// use etendue::observer::Efficiency;
+    ///
+    /// assert_eq!(Efficiency::named("v'")?, Efficiency::Scotopic1951);
+    /// assert!(Efficiency::named("skotopic").is_err());
+    /// # Ok::<(), etendue::observer::ObserverError>(())
+    /// ```
+    pub fn named(name: &str) -> Result<Self, ObserverError> {
+        find("luminous efficiency function", name, &Self::ALL, |efficiency| match efficiency {
+            Self::Photopic1924 => &["V(lambda)", "V", "photopic", "CIE 1924"],
+            Self::Scotopic1951 => &["V'(lambda)", "V'", "scotopic", "CIE 1951"],
+            Self::JuddVos1978 => &["V_M(lambda)", "V_M", "Judd-Vos 1978", "Judd-Vos", "CIE 1988"],
+            Self::Physiological2 => &["V_F(lambda) 2 degree", "V_F", "V_F 2°", "CIE 2015 2 degree"],
+            Self::Physiological10 => &["V_F(lambda) 10 degree", "V_F,10", "V_F 10°", "V_F,10(lambda)", "CIE 2015 10 degree"],
+            Self::TenDegree1964 => &["V_10(lambda)", "V_10", "CIE 1964"],
+        })
     }
 
     /// Symbol for labels, such as "V′(λ)".

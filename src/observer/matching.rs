@@ -10,7 +10,8 @@
 //!
 //! Sets of real primaries are negative where a primary has to be added to the light that is matched.
 
-use super::embedded;
+use super::names::find;
+use super::{Efficiency, ObserverError, embedded};
 use crate::spectrum::Factor;
 
 /// A set of three colour matching functions.
@@ -66,6 +67,38 @@ impl Matching {
             Self::WrightGuild1931 => "Wright & Guild 1931 2 Degree RGB CMFs",
             Self::StilesBurch1955 => "Stiles & Burch 1955 2 Degree RGB CMFs",
             Self::StilesBurch1959 => "Stiles & Burch 1959 10 Degree RGB CMFs",
+        }
+    }
+
+    /// The set of this name: its title, or a short one such as "CIE 1931". Errors with all names if there is none.
+    ///
+    /// ```
+    /// use etendue::observer::Matching;
+    ///
+    /// assert_eq!(Matching::named("cie 1964")?, Matching::Cie1964);
+    /// # Ok::<(), etendue::observer::ObserverError>(())
+    /// ```
+    pub fn named(name: &str) -> Result<Self, ObserverError> {
+        find("set of colour matching functions", name, &Self::ALL, |set| match set {
+            Self::Cie1931 => &["CIE 1931", "CIE 1931 2 Degree Standard Observer", "XYZ 1931"],
+            Self::Cie1964 => &["CIE 1964", "CIE 1964 10 Degree Standard Observer", "XYZ 1964"],
+            Self::Cie2015TwoDegree => &["CIE 2015 2 degree", "CIE 2015 2 Degree Standard Observer"],
+            Self::Cie2015TenDegree => &["CIE 2015 10 degree", "CIE 2015 10 Degree Standard Observer"],
+            Self::WrightGuild1931 => &["Wright & Guild 1931", "Wright & Guild 1931 2 Degree RGB CMFs", "Wright-Guild", "CIE RGB"],
+            Self::StilesBurch1955 => &["Stiles & Burch 1955", "Stiles & Burch 1955 2 Degree RGB CMFs"],
+            Self::StilesBurch1959 => &["Stiles & Burch 1959", "Stiles & Burch 1959 10 Degree RGB CMFs"],
+        })
+    }
+
+    /// The luminous efficiency function that the second function is, and with it the constant k that makes Y a luminous quantity. None
+    /// for real primaries, whose units are their own.
+    pub fn efficiency(self) -> Option<Efficiency> {
+        match self {
+            Self::Cie1931 => Some(Efficiency::Photopic1924),
+            Self::Cie1964 => Some(Efficiency::TenDegree1964),
+            Self::Cie2015TwoDegree => Some(Efficiency::Physiological2),
+            Self::Cie2015TenDegree => Some(Efficiency::Physiological10),
+            Self::WrightGuild1931 | Self::StilesBurch1955 | Self::StilesBurch1959 => None,
         }
     }
 

@@ -25,6 +25,7 @@ mod error;
 pub mod individual;
 pub mod matching;
 pub mod mesopic;
+mod names;
 pub mod template;
 
 pub use alpha_opic::AlphaOpic;
