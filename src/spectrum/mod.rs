@@ -21,6 +21,7 @@
 //! | `product_integral` | exact integrals of products |
 //! | `term` | a density times factors, cut into smooth pieces |
 //! | `quadrature` | few wavelengths and positive weights for path products |
+//! | `peak` | peak wavelength and half width |
 //! | `placement` | greedy choice of those wavelengths |
 //! | `test_products` | products of reflectances on which a quadrature is tried |
 //! | `photometry` | radiant, luminous and photon totals |
@@ -34,6 +35,7 @@ mod error;
 mod factor;
 mod gauss_legendre;
 pub mod library;
+mod peak;
 pub mod photometry;
 mod placement;
 mod product_integral;
@@ -49,6 +51,7 @@ mod test_products;
 pub use density::{Continuum, Density, LED_WIDTH_OVER_FWHM, Line};
 pub use error::SpectrumError;
 pub use factor::Factor;
+pub use peak::Peak;
 pub use support::Support;
 pub use table::{Outside, Table};
 
