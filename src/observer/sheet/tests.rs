@@ -142,8 +142,7 @@ fn propagated_uncertainties_are_those_of_a_monte_carlo() {
         let mut found: Vec<Vec<f64>> = vec![Vec::new(); ids.len()];
         for _ in 0..TRIALS {
             let common = normal();
-            let moved: Vec<f64> =
-                values.iter().zip(&u).map(|(value, u)| value + u * if correlated { common } else { normal() }).collect();
+            let moved: Vec<f64> = values.iter().zip(&u).map(|(value, u)| value + u * if correlated { common } else { normal() }).collect();
             let sheet = of_rows(&wavelengths_nm, moved, &SheetOptions { scale, ..SheetOptions::default() });
             ids.iter().zip(&mut found).for_each(|(id, list)| list.push(number(&sheet, id)));
         }
