@@ -19,6 +19,7 @@
 //! | `black_body` | Planck's law |
 //! | `daylight` | the CIE's D series |
 //! | `product_integral` | exact integrals of products |
+//! | `integrals` | many of them at once |
 //! | `term` | a density times factors, cut into smooth pieces |
 //! | `quadrature` | few wavelengths and positive weights for path products |
 //! | `peak` | peak wavelength and half width |
@@ -37,6 +38,7 @@ mod error;
 mod factor;
 pub mod file;
 mod gauss_legendre;
+mod integrals;
 pub mod library;
 mod peak;
 pub mod photometry;
