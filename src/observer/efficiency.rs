@@ -42,7 +42,7 @@ impl Efficiency {
     pub const ALL: [Self; 6] =
         [Self::Photopic1924, Self::Scotopic1951, Self::JuddVos1978, Self::Physiological2, Self::Physiological10, Self::TenDegree1964];
 
-    /// The function, 1 at its maximum, zero outside its table.
+    /// The function, 1 at its maximum (V_F to 1e-5: its maximum lies between the nodes), zero outside its table.
     pub fn curve(self) -> Factor {
         embedded(self.name())
     }
@@ -74,7 +74,7 @@ impl Efficiency {
             Self::Photopic1924 => &["V(lambda)", "V", "photopic", "CIE 1924"],
             Self::Scotopic1951 => &["V'(lambda)", "V'", "scotopic", "CIE 1951"],
             Self::JuddVos1978 => &["V_M(lambda)", "V_M", "Judd-Vos 1978", "Judd-Vos", "CIE 1988"],
-            Self::Physiological2 => &["V_F(lambda) 2 degree", "V_F", "V_F 2°", "CIE 2015 2 degree"],
+            Self::Physiological2 => &["V_F(lambda) 2 degree", "V_F", "V_F(lambda)", "V_F 2°", "CIE 2015 2 degree"],
             Self::Physiological10 => &["V_F(lambda) 10 degree", "V_F,10", "V_F 10°", "V_F,10(lambda)", "CIE 2015 10 degree"],
             Self::TenDegree1964 => &["V_10(lambda)", "V_10", "CIE 1964"],
         })
