@@ -69,17 +69,19 @@ pub(super) fn read_optional_adjustment(
     }
 }
 
-fn read_adjusted_scale(spectrum: &Value, system: &System, responsivity: Option<&Factor>, otherwise: &str, reading: &mut Reading) -> Option<f64> {
+fn read_adjusted_scale(
+    spectrum: &Value,
+    system: &System,
+    responsivity: Option<&Factor>,
+    otherwise: &str,
+    reading: &mut Reading,
+) -> Option<f64> {
     let density = read_spectrum(spectrum, reading)?;
     let (truth, seen) = (density.integral(&[&system.curve]), density.integral(&[responsivity?]));
     if seen > 0.0 && truth > 0.0 {
         return Some(system.per_watt * (truth / seen));
     }
     let blind = if seen > 0.0 { "the eye" } else { "this responsivity" };
-    spectrum.problem(
-        &mut reading.problems,
-        format!("a meter cannot be adjusted with a spectrum that {blind} does not see"),
-        otherwise,
-    );
+    spectrum.problem(&mut reading.problems, format!("a meter cannot be adjusted with a spectrum that {blind} does not see"), otherwise);
     None
 }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
-//! | `check.rs`, `explain.rs`, `list.rs`, `measure.rs` | one file a subcommand |
+//! | every other file | a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
