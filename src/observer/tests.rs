@@ -45,7 +45,7 @@ fn efficiencies_and_fundamentals_peak_at_one() {
     for cones in [Cones::StockmanSharpe2, Cones::StockmanSharpe10] {
         for (curve, near_nm) in cones.fundamentals().unwrap().iter().zip([569.0, 542.0, 445.0]) {
             let (value, nm) = peak(curve);
-            assert!((value - 1.0).abs() < 1e-5 && (nm - near_nm).abs() <= 4.0, "{value} at {nm} nm");
+            assert!((value - 1.0).abs() < 1e-4 && (nm - near_nm).abs() <= 4.0, "{value} at {nm} nm");
         }
     }
     for alpha in AlphaOpic::ALL {
