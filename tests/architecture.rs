@@ -16,7 +16,7 @@ const LAYERS: [(&str, usize); 16] = [
     ("source", 2),
     ("surface", 2),
     ("observer", 2),
-    ("lecture", 3),
+    ("lecture", 7),
     ("sensor", 2),
     ("scene", 3),
     ("plan", 4),
