@@ -17,6 +17,7 @@
 //! | `factor` | dimensionless functions |
 //! | `density` | continuum and lines |
 //! | `black_body` | Planck's law |
+//! | `daylight` | the CIE's D series |
 //! | `product_integral` | exact integrals of products |
 //! | `term` | a density times factors, cut into smooth pieces |
 //! | `quadrature` | few wavelengths and positive weights for path products |
@@ -27,6 +28,7 @@
 //! | `library` | embedded tables by name |
 
 pub mod black_body;
+pub mod daylight;
 mod density;
 mod error;
 mod factor;
@@ -44,7 +46,7 @@ pub mod table_text;
 mod term;
 mod test_products;
 
-pub use density::{Continuum, Density, Line};
+pub use density::{Continuum, Density, LED_WIDTH_OVER_FWHM, Line};
 pub use error::SpectrumError;
 pub use factor::Factor;
 pub use support::Support;
