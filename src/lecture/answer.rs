@@ -26,8 +26,10 @@ pub struct GivenInput {
     pub key: String,
     /// Symbol in the formula.
     pub symbol: &'static str,
-    /// The number, or the spectrum's name.
+    /// The number as it was typed, or the spectrum's name.
     pub value: String,
+    /// The number, if it is one.
+    pub number: Option<f64>,
     /// Unit; "" for a spectrum, "1" for a pure number.
     pub unit: &'static str,
     /// What it means.
@@ -94,7 +96,10 @@ struct Understood {
 pub fn answer(name: &str, given: &[(&str, &str)]) -> Result<Answer, Vec<Problem>> {
     let Some(equation) = equations().find(|equation| equation.name == name) else {
         let near = nearest(name, equations().map(|equation| equation.name));
-        let help = near.map_or_else(|| "`etendue equation` lists all of them".to_owned(), |near| format!("did you mean `{near}`? `etendue equation` lists all of them"));
+        let help = near.map_or_else(
+            || "`etendue equation` lists all of them".to_owned(),
+            |near| format!("did you mean `{near}`? `etendue equation` lists all of them"),
+        );
         return Err(vec![problem(format!("there is no equation `{}`", quoted(name)), help)]);
     };
     let mut problems = unknown_keys(equation, given);
@@ -102,7 +107,8 @@ pub fn answer(name: &str, given: &[(&str, &str)]) -> Result<Answer, Vec<Problem>
     let mut systems: Vec<&'static str> = understood.iter().flatten().map(|u| u.system).filter(|system| !system.is_empty()).collect();
     systems.dedup();
     if systems.len() > 1 {
-        problems.push(problem(format!("quantities of different systems are given: {}", systems.join(", ")), "give all of them in one system"));
+        problems
+            .push(problem(format!("quantities of different systems are given: {}", systems.join(", ")), "give all of them in one system"));
     }
     let understood: Vec<Understood> = understood.into_iter().flatten().collect();
     if !problems.is_empty() || understood.len() != equation.inputs.len() {
@@ -119,8 +125,14 @@ pub fn answer(name: &str, given: &[(&str, &str)]) -> Result<Answer, Vec<Problem>
     }
     let [name, symbol, unit] = equation.outcome.words(systems.first().copied().unwrap_or("radiant"));
     let inputs = equation.inputs.iter().zip(understood);
-    let inputs =
-        inputs.map(|(input, u)| GivenInput { key: u.key, symbol: input.symbol, value: u.value, unit: u.unit, meaning: input.meaning });
+    let inputs = inputs.map(|(input, u)| GivenInput {
+        key: u.key,
+        symbol: input.symbol,
+        value: u.value,
+        number: u.spectrum.is_none().then_some(u.number),
+        unit: u.unit,
+        meaning: input.meaning,
+    });
     Ok(Answer { equation, inputs: inputs.collect(), name, symbol, value, unit, also })
 }
 

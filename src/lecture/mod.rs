@@ -28,11 +28,18 @@ mod solid_angles;
 mod tests;
 
 pub use answer::{Answer, Form, GivenInput, Problem, answer};
-pub use equation::{Also, Domain, Equation, Given, Group, Input, Outcome, Unit};
+pub use equation::{Also, Domain, Equation, Given, Group, Input, Outcome, SYSTEMS_IN_KEYS, Unit};
 
 /// Every equation, group by group.
 pub fn equations() -> impl Iterator<Item = &'static Equation> {
-    [photons::EQUATIONS, emission::EQUATIONS, solid_angles::EQUATIONS, collecting::EQUATIONS, photometry::EQUATIONS, black_bodies::EQUATIONS]
-        .into_iter()
-        .flatten()
+    [
+        photons::EQUATIONS,
+        emission::EQUATIONS,
+        solid_angles::EQUATIONS,
+        collecting::EQUATIONS,
+        photometry::EQUATIONS,
+        black_bodies::EQUATIONS,
+    ]
+    .into_iter()
+    .flatten()
 }

@@ -2,6 +2,7 @@
 
 use super::equation::Domain::{NotNegative, Positive};
 use super::equation::{Also, Equation, Group, Input, Outcome, cell, in_any_system, input, outcome};
+use crate::quantity::Duration;
 use crate::quantity::air::wavelength_in_vacuum_nm;
 use crate::quantity::cell::Row;
 use crate::quantity::photon::{
@@ -9,7 +10,6 @@ use crate::quantity::photon::{
     photon_energy_of_angular_frequency_j,
 };
 use crate::quantity::table::{Irradiance, LuminousEnergy, LuminousFlux, PhotonFlux, PhotonIrradiance, PhotonNumber, RadiantFlux};
-use crate::quantity::Duration;
 
 pub(super) const WAVELENGTH: Input = input("wavelength_nm", "λ", "nm", Positive, "wavelength in vacuum");
 const SI: &str = "BIPM, The International System of Units, 9th edition, appendix 3";
@@ -57,7 +57,11 @@ pub(super) const EQUATIONS: &[Equation] = &[
         source: SI,
         example: &[("wavelength_nm", "555.171")],
         compute: |g| Ok(frequency_hz(g.number("wavelength_nm"))),
-        also: &[Also { what: "angular frequency ω = 2π ν", unit: "rad/s", compute: |g, _| angular_frequency_rad_s(g.number("wavelength_nm")) }],
+        also: &[Also {
+            what: "angular frequency ω = 2π ν",
+            unit: "rad/s",
+            compute: |g, _| angular_frequency_rad_s(g.number("wavelength_nm")),
+        }],
     },
     Equation {
         name: "photon-flux",
@@ -80,9 +84,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
         outcome: cell::<PhotonIrradiance>(),
         source: SI,
         example: &[("irradiance_w_m2", "1"), ("wavelength_nm", "450")],
-        compute: |g| {
-            Ok(monochromatic_photon_irradiance(Irradiance::new(g.number("irradiance_w_m2")), g.number("wavelength_nm")).value())
-        },
+        compute: |g| Ok(monochromatic_photon_irradiance(Irradiance::new(g.number("irradiance_w_m2")), g.number("wavelength_nm")).value()),
         also: &[Also { what: "in micromoles of photons", unit: "µmol/(m² s)", compute: |_, n| PhotonIrradiance::new(n).umol_m2_s() }],
     },
     Equation {
@@ -114,7 +116,10 @@ pub(super) const EQUATIONS: &[Equation] = &[
         group: Group::Photons,
         formula: "Q_v = Φ_v t",
         about: "luminous energy of a constant luminous flux; one lumen second is called a talbot",
-        inputs: &[input("luminous_flux_lm", "Φ_v", "lm", NotNegative, "luminous flux"), input("seconds", "t", "s", NotNegative, "duration")],
+        inputs: &[
+            input("luminous_flux_lm", "Φ_v", "lm", NotNegative, "luminous flux"),
+            input("seconds", "t", "s", NotNegative, "duration"),
+        ],
         outcome: cell::<LuminousEnergy>(),
         source: "ISO 80000-7",
         example: &[("luminous_flux_lm", "800"), ("seconds", "10")],

@@ -16,10 +16,12 @@
 //! | `template` | visual pigments of any wavelength of maximum | S(λ) | Govardovskii 2000 |
 //! | `matching` | tristimulus values | x̄ ȳ z̄, r̄ ḡ b̄ | CIE 015 |
 //! | `alpha_opic` | the five photoreceptors behind non-visual responses | s_α | CIE S 026 |
+//! | `conversion` | a quantity in another system, through a spectrum | all of them | |
 
 pub mod alpha_opic;
 pub mod components;
 pub mod cones;
+pub mod conversion;
 pub mod efficiency;
 mod error;
 pub mod individual;
