@@ -2,7 +2,7 @@
 
 use super::equation::{Domain, Equation, Given, Input, Unit};
 use super::equations;
-use crate::scene::nearest::{nearest, suggestion};
+use crate::scene::nearest::{by_distance, nearest, suggestion};
 use crate::spectrum::{Density, library};
 
 /// Longest wavelength that is taken for a line, nm.
@@ -95,11 +95,11 @@ struct Understood {
 /// or outside its domain, units of different systems, a result that no number holds.
 pub fn answer(name: &str, given: &[(&str, &str)]) -> Result<Answer, Vec<Problem>> {
     let Some(equation) = equations().find(|equation| equation.name == name) else {
-        let near = nearest(name, equations().map(|equation| equation.name));
-        let help = near.map_or_else(
-            || "`etendue equation` lists all of them".to_owned(),
-            |near| format!("did you mean `{near}`? `etendue equation` lists all of them"),
-        );
+        let names = || equations().map(|equation| equation.name);
+        let (close, _) = by_distance(name, names(), 3);
+        let offered = nearest(name, names())
+            .map_or_else(|| format!("the nearest names are {}", close.join(", ")), |near| format!("did you mean `{near}`?"));
+        let help = format!("{offered} (`etendue equation` lists all of them)");
         return Err(vec![problem(format!("there is no equation `{}`", quoted(name)), help)]);
     };
     let mut problems = unknown_keys(equation, given);

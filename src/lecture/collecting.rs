@@ -1,6 +1,6 @@
 //! Collecting light: étendue, the measurement equation, light on a surface.
 
-use super::equation::Domain::{Between, NotNegative, Positive};
+use super::equation::Domain::{AboveUpTo, Between, NotNegative, Positive};
 use super::equation::{Equation, Group, Input, Outcome, cell, in_any_system, input, outcome};
 use crate::math::angle::sin_cos_deg;
 use crate::quantity::cell::Row;
@@ -71,7 +71,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
             input("responsivity_a_w", "s", "A/W", NotNegative, "responsivity at the wavelengths of the light"),
             input("radiance_w_m2_sr", "L", "W/(m² sr)", NotNegative, "radiance, uniform over aperture and cone"),
             input("radius_m", "R", "m", Positive, "radius of the aperture, A = π R²"),
-            input("half_angle_deg", "α", "°", Between(f64::MIN_POSITIVE, 90.0), "half angle of the acceptance"),
+            input("half_angle_deg", "α", "°", AboveUpTo(0.0, 90.0), "half angle of the acceptance"),
         ],
         outcome: outcome("photocurrent", "S", "A"),
         source: "the front page of this library; EMVA 1288 for the photocurrent",

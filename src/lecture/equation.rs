@@ -47,6 +47,8 @@ pub enum Domain {
     Between(f64, f64),
     /// Above a number.
     Above(f64),
+    /// Above a number and up to another.
+    AboveUpTo(f64, f64),
     /// A spectrum: a name of the library or a wavelength in nm, which is a line.
     Spectrum,
 }
@@ -61,6 +63,7 @@ impl Domain {
                 Self::Real => true,
                 Self::Between(from, to) => from <= x && x <= to,
                 Self::Above(least) => x > least,
+                Self::AboveUpTo(least, most) => least < x && x <= most,
                 Self::Spectrum => false,
             }
     }
@@ -73,6 +76,7 @@ impl Domain {
             Self::Real => "finite".into(),
             Self::Between(from, to) => format!("{from} to {to}"),
             Self::Above(least) => format!("finite and above {least}"),
+            Self::AboveUpTo(least, most) => format!("above {least}, up to {most}"),
             Self::Spectrum => "a spectrum of the library such as D65, or a wavelength in nm for a line".into(),
         }
     }

@@ -62,7 +62,7 @@ fn every_number_outside_its_domain_is_refused() {
             let mut wrong = vec!["NaN", "inf", "-inf", "1e999", "five", ""];
             wrong.extend((!input.domain.contains(-1e300)).then_some("-1e300"));
             wrong.extend((input.domain == Domain::Positive).then_some("0"));
-            wrong.extend(matches!(input.domain, Domain::Between(..)).then_some("1e300"));
+            wrong.extend(matches!(input.domain, Domain::Between(..) | Domain::AboveUpTo(..)).then_some("1e300"));
             for text in wrong {
                 let given: Vec<(&str, &str)> =
                     equation.example.iter().enumerate().map(|(i, (key, value))| (*key, if i == index { text } else { *value })).collect();

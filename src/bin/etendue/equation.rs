@@ -11,7 +11,7 @@ pub(crate) struct Arguments {
     /// The equation, e.g. `photon-energy`; without it all are listed.
     name: Option<String>,
     /// Its inputs, e.g. `wavelength_nm=555`; units are in the keys.
-    #[arg(value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    #[arg(value_name = "KEY=VALUE")]
     inputs: Vec<String>,
     /// The table of quantities and systems, with units.
     #[arg(long, conflicts_with = "name")]

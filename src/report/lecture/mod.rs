@@ -91,8 +91,8 @@ pub fn answer(answer: &Answer) -> String {
 pub fn inputs(equation: &Equation) -> String {
     let mut text = format!("{}   {}\n", equation.formula, equation.about);
     for input in equation.inputs {
-        let units: Vec<&str> = input.keys().iter().map(|(_, unit, _)| *unit).filter(|unit| !unit.is_empty()).collect();
-        let unit = if units.is_empty() || units == ["1"] { String::new() } else { format!(" in {}", units.join(", ")) };
+        let units: Vec<&str> = input.keys().iter().map(|(_, unit, _)| *unit).filter(|unit| !matches!(*unit, "" | "1")).collect();
+        let unit = if units.is_empty() { String::new() } else { format!(" in {}", units.join(", ")) };
         let domain = if input.domain == Domain::Spectrum { String::new() } else { format!(", {}", input.domain.words()) };
         text.push_str(&format!("  {}   {} = {}{unit}{domain}\n", keys(input), input.symbol, input.meaning));
     }
@@ -117,11 +117,11 @@ pub fn table() -> String {
             let others: Vec<String> = row
                 .other_units(cell.system)
                 .iter()
-                .map(|o| format!("1 {} ({}) = {} {}", o.unit, o.name, number(o.size), cell.unit))
+                .map(|o| format!("{} ({}) = {}", o.unit, o.name, with_unit(&number(o.size), cell.unit)))
                 .collect();
             let others = if others.is_empty() { String::new() } else { format!(";  {}", others.join(", ")) };
             let words = [pad(cell.system, 0), pad(cell.name, 1), pad(cell.symbol, 2), pad(cell.unit, 3)].join("  ");
-            text.push_str(&format!("  {words}  {}{}\n", cell.unit_name, others.trim_end_matches(" 1")));
+            text.push_str(&format!("  {words}  {}{others}\n", cell.unit_name));
         }
         text.push('\n');
     }
