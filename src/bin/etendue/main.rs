@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
-//! | `check.rs`, `equation.rs`, `explain.rs`, `measure.rs` | one file a subcommand |
+//! | every other file | a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
@@ -12,6 +12,7 @@ mod check;
 mod disk;
 mod equation;
 mod explain;
+mod list;
 mod measure;
 
 use std::io::Write;
@@ -35,6 +36,8 @@ enum Command {
     Explain(explain::Arguments),
     /// Equations of the lecture: list them, or compute one from its inputs.
     Equation(equation::Arguments),
+    /// The curves of the library and the sensor files at hand, by name.
+    List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
 }
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Equation(arguments) => equation::run(&arguments),
+        Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
     };
     match done {
