@@ -5,6 +5,7 @@
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
 //! | every other file | a subcommand |
+//! | `check.rs`, `explain.rs`, `measure.rs`, `spectrum.rs` | one file a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
@@ -14,6 +15,7 @@ mod equation;
 mod explain;
 mod list;
 mod measure;
+mod spectrum;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -40,6 +42,8 @@ enum Command {
     List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
+    /// Every quantity of one spectrum.
+    Spectrum(spectrum::Arguments),
 }
 
 /// Why a command ended early; what it has to say is on stderr already or is said here.
@@ -57,6 +61,7 @@ fn main() -> ExitCode {
         Command::Equation(arguments) => equation::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
+        Command::Spectrum(arguments) => spectrum::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
