@@ -12,10 +12,11 @@
 //! | `placement`, `shape_reader`, `mesh_reader`, `mesh_file` | where things are, and what shape they have |
 //! | `spectrum_reader`, `factor_range`, `surface_reader`, `strength` | spectra, factors, surfaces, how strong a source is |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
-//! | `sensor_reader`, `channel_reader`, `directional_table` | sensor files |
+//! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
 //! | `reader` | the scene as a whole |
 //! | `checks` | what only the scene as a whole can show |
 
+mod adjustment;
 mod channel_reader;
 mod checks;
 mod decode;
@@ -30,6 +31,7 @@ pub mod mesh_file;
 mod mesh_reader;
 mod nearest;
 mod object_reader;
+mod observer_reader;
 mod placement;
 mod reader;
 mod reading;

@@ -282,7 +282,11 @@ fn unknown(value: &Value, error: &library::LookupError, what: &str, reading: &mu
             let files = "a file name ends in .csv or .txt";
             (format!("the library has no {what} called \"{name}\""), format!("nearest: {}; {files}", near.join(", ")))
         }
-        other @ library::LookupError::OtherKind { .. } => {
+        library::LookupError::Ambiguous { name, candidates } => {
+            let some: Vec<String> = candidates.iter().take(6).map(|n| format!("\"{n}\"")).collect();
+            (format!("\"{name}\" names several curves of the library"), format!("say which of {}: {}", candidates.len(), some.join(", ")))
+        }
+        other => {
             let example = if what == "spectrum" {
                 "write a spectrum such as \"A\", \"D65\", \"LED-B3\""
             } else {

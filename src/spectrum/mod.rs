@@ -17,9 +17,11 @@
 //! | `factor` | dimensionless functions |
 //! | `density` | continuum and lines |
 //! | `black_body` | Planck's law |
+//! | `daylight` | the CIE's D series |
 //! | `product_integral` | exact integrals of products |
 //! | `term` | a density times factors, cut into smooth pieces |
 //! | `quadrature` | few wavelengths and positive weights for path products |
+//! | `peak` | peak wavelength and half width |
 //! | `placement` | greedy choice of those wavelengths |
 //! | `test_products` | products of reflectances on which a quadrature is tried |
 //! | `photometry` | radiant, luminous and photon totals |
@@ -27,11 +29,13 @@
 //! | `library` | embedded tables by name |
 
 pub mod black_body;
+pub mod daylight;
 mod density;
 mod error;
 mod factor;
 mod gauss_legendre;
 pub mod library;
+mod peak;
 pub mod photometry;
 mod placement;
 mod product_integral;
@@ -44,9 +48,10 @@ pub mod table_text;
 mod term;
 mod test_products;
 
-pub use density::{Continuum, Density, Line};
+pub use density::{Continuum, Density, LED_WIDTH_OVER_FWHM, Line};
 pub use error::SpectrumError;
 pub use factor::Factor;
+pub use peak::Peak;
 pub use support::Support;
 pub use table::{Outside, Table};
 

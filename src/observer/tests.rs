@@ -1,0 +1,1 @@
+//! Laws and published figures of the observers.

@@ -1,0 +1,72 @@
+//! What is compared of a name, and which names are near one that was not found.
+
+use super::Entry;
+
+/// How many nearest names are offered.
+const OFFERED: usize = 3;
+
+/// Longest part of a name that is compared letter by letter, so that the work is bounded.
+const COMPARED: usize = 80;
+
+/// What is compared: letters and digits, in lower case, with signs spelt out and the word "and" left out.
+pub(in crate::spectrum) fn key(name: &str) -> String {
+    let (mut key, mut word) = (String::new(), String::new());
+    let finish = |key: &mut String, word: &mut String| {
+        if word != "and" {
+            key.push_str(word);
+        }
+        word.clear();
+    };
+    for character in name.chars() {
+        match character {
+            'λ' => word.push_str("lambda"),
+            'α' => word.push_str("alpha"),
+            '\'' | '′' | '’' => word.push_str("prime"),
+            '\u{304}' | '\u{305}' => word.push_str("bar"),
+            'ȳ' => word.push_str("ybar"),
+            'ḡ' => word.push_str("gbar"),
+            '°' => word.push_str("degree"),
+            '₀'..='₉' => word.extend(char::from_digit(u32::from(character) - u32::from('₀'), 10)),
+            _ if character.is_alphanumeric() => word.extend(character.to_lowercase()),
+            _ => finish(&mut key, &mut word),
+        }
+    }
+    finish(&mut key, &mut word);
+    key.replace("colour", "color").replace("degrees", "degree").replace("degree", "deg")
+}
+
+/// Official names and aliases close to `name`, best first, one for each entry.
+///
+/// A name that begins with or contains what was asked for counts as one mistake, others by their edit distance.
+pub(super) fn nearest(name: &str, entries: impl Iterator<Item = &'static Entry>) -> Vec<String> {
+    let wanted: Vec<char> = key(name).chars().take(COMPARED).collect();
+    let wanted_text: String = wanted.iter().collect();
+    let mistakes = |candidate: &str| {
+        let distance = edit_distance(&wanted, &candidate.chars().take(COMPARED).collect::<Vec<_>>());
+        if wanted.len() >= 3 && candidate.contains(&wanted_text) { distance.min(1) } else { distance }
+    };
+    let best_of = |entry: &'static Entry| {
+        let ranked = entry.names().map(|name| {
+            let candidate = key(name);
+            (mistakes(&candidate), !candidate.starts_with(&wanted_text), candidate.len(), name)
+        });
+        ranked.min()
+    };
+    let mut ranked: Vec<_> = entries.filter_map(best_of).collect();
+    ranked.sort_unstable();
+    ranked.into_iter().take(OFFERED).map(|(.., name)| name.to_owned()).collect()
+}
+
+/// Levenshtein's distance.
+fn edit_distance(a: &[char], b: &[char]) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.iter().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, to) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(from != to);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
