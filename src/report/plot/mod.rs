@@ -16,30 +16,39 @@
 //! | `labels` | names beside the curves, where there is room |
 //! | `canvas` | lines and areas through plotters |
 //! | `svg`, `png`, `table` | the documents |
-//! | `v_lambda` | luminous efficiency functions |
+//! | `sample` | points of a function, colours along an axis |
+//! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody` | a plot each |
 //!
 //! ```
 //! use etendue::report::plot::{self, Size, Style, Theme};
 //!
-//! let chart = plot::v_lambda::chart()?;
+//! let chart = plot::v_lambda::chart(&plot::v_lambda::Choice::default())?;
 //! let picture = plot::svg(&chart, &Style { theme: Theme::Light, size: Size::Paper })?;
 //! assert!(picture.contains("Wavelength") && plot::csv(&chart).starts_with("item,kind,"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod axis;
+pub mod blackbody;
 mod canvas;
 pub mod chart;
+pub mod cmf;
+pub mod cones;
 mod error;
 mod labels;
 mod layout;
+pub mod pigments;
 mod png;
 mod polyline;
+pub mod reflectance;
+mod sample;
+pub mod spectrum;
 mod style;
 mod svg;
 mod table;
 mod text;
 pub mod v_lambda;
+pub mod wavelength_colour;
 
 pub use chart::Chart;
 pub use error::PlotError;
