@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
-//! | `check.rs`, `explain.rs`, `measure.rs` | one file a subcommand |
+//! | `check.rs`, `explain.rs`, `measure.rs`, `plot.rs` | one file a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
@@ -12,6 +12,8 @@ mod check;
 mod disk;
 mod explain;
 mod measure;
+#[cfg(feature = "plot")]
+mod plot;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -34,6 +36,9 @@ enum Command {
     Explain(explain::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
+    /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
+    #[cfg(feature = "plot")]
+    Plot(plot::Arguments),
 }
 
 /// Why a command ended early; what it has to say is on stderr already or is said here.
@@ -49,6 +54,8 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
+        #[cfg(feature = "plot")]
+        Command::Plot(arguments) => plot::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,1 +1,49 @@
 //! Plots in SVG and PNG.
+//!
+//! ```text
+//! a plot's arguments ─v_lambda, cones, …→ Chart ─svg→ SVG ─png→ PNG
+//!                                           └───csv→ the numbers that are drawn
+//! ```
+//!
+//! | file | what |
+//! |---|---|
+//! | `chart` | what is to be drawn, as plain data |
+//! | `style` | theme, size, colours |
+//! | `axis` | ticks, and where a value stands |
+//! | `text` | the font, widths of texts |
+//! | `polyline` | cutting and thinning lines |
+//! | `layout` | places of frame, texts, legend |
+//! | `labels` | names beside the curves, where there is room |
+//! | `canvas` | lines and areas through plotters |
+//! | `svg`, `png`, `table` | the documents |
+//! | `v_lambda` | luminous efficiency functions |
+//!
+//! ```
+//! use etendue::report::plot::{self, Size, Style, Theme};
+//!
+//! let chart = plot::v_lambda::chart()?;
+//! let picture = plot::svg(&chart, &Style { theme: Theme::Light, size: Size::Paper })?;
+//! assert!(picture.contains("Wavelength") && plot::csv(&chart).starts_with("item,kind,"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod axis;
+mod canvas;
+pub mod chart;
+mod error;
+mod labels;
+mod layout;
+mod png;
+mod polyline;
+mod style;
+mod svg;
+mod table;
+mod text;
+pub mod v_lambda;
+
+pub use chart::Chart;
+pub use error::PlotError;
+pub use png::png;
+pub use style::{SIDES_PX, Size, Style, Theme};
+pub use svg::svg;
+pub use table::csv;
