@@ -16,6 +16,7 @@
 //! | `labels` | names beside the curves, where there is room |
 //! | `canvas` | lines and areas through plotters |
 //! | `svg`, `png`, `table` | the documents |
+//! | `wavelength_colour` | colours of wavelengths, smooth to the eye |
 //! | `v_lambda` | luminous efficiency functions |
 //!
 //! ```
@@ -40,6 +41,7 @@ mod svg;
 mod table;
 mod text;
 pub mod v_lambda;
+pub mod wavelength_colour;
 
 pub use chart::Chart;
 pub use error::PlotError;
