@@ -17,6 +17,7 @@
 //! | `canvas` | lines and areas through plotters |
 //! | `svg`, `png`, `table` | the documents |
 //! | `sample` | points of a function, colours along an axis |
+//! | `wavelength_colour` | colours of wavelengths, smooth to the eye |
 //! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody` | a plot each |
 //!
 //! ```

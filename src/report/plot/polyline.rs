@@ -185,7 +185,8 @@ mod tests {
             points in proptest::collection::vec([-20.0..30.0_f64, -20.0..30.0_f64], 2..40),
         ) {
             for piece in pieces(&points, &FRAME) {
-                prop_assert!(piece.iter().all(|p| FRAME.grown(1e-9).holds(&Rectangle { left: p[0], right: p[0], top: p[1], bottom: p[1] })));
+                let inside = piece.iter().all(|p| FRAME.grown(1e-9).holds(&Rectangle { left: p[0], right: p[0], top: p[1], bottom: p[1] }));
+                prop_assert!(inside);
                 let thin = thinned(&piece, 0.1);
                 for point in &piece {
                     let nearest = thin.windows(2).map(|pair| distance(*point, pair[0], pair[1])).fold(f64::INFINITY, f64::min);
