@@ -11,6 +11,7 @@
 //! | `impulses` | spectral lines: vertical, from the base to their power; `impulse_axis` says what their height means |
 //! | `points` | discs with or without a label |
 //! | `notes` | text at a place |
+//! | `keys` | a short legend of dashes at the top right, where several sets are drawn alike |
 //! | `strip` | a band of colours along the x axis |
 //!
 //! Coordinates are those of the axes. A coordinate that is not finite, or not positive on a logarithmic axis, interrupts a line.
@@ -40,6 +41,8 @@ pub struct Chart {
     pub bands: Vec<Band>,
     /// Lines.
     pub curves: Vec<Curve>,
+    /// What the kinds of lines mean.
+    pub keys: Vec<Key>,
     /// Spectral lines.
     pub impulses: Vec<Impulse>,
     /// Quantity and unit of the impulses' height, on an axis of its own at the right.
@@ -65,6 +68,7 @@ impl Chart {
             areas: Vec::new(),
             bands: Vec::new(),
             curves: Vec::new(),
+            keys: Vec::new(),
             impulses: Vec::new(),
             impulse_axis: None,
             points: Vec::new(),
@@ -156,8 +160,10 @@ pub enum Under {
 /// A line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Its name, written at the curve; empty for none.
+    /// Its name; empty for none.
     pub label: String,
+    /// What is written at the curve in place of its name; empty for nothing.
+    pub written: Option<String>,
     /// (x, y).
     pub points: Vec<[f64; 2]>,
     /// Colour of line and label.
@@ -173,7 +179,12 @@ pub struct Curve {
 impl Curve {
     /// A solid line of ordinary width.
     pub fn new(label: &str, points: Vec<[f64; 2]>, ink: Ink) -> Self {
-        Self { label: label.to_owned(), points, ink, width: 1.0, dash: Dash::Solid, under: Under::Nothing }
+        Self { label: label.to_owned(), written: None, points, ink, width: 1.0, dash: Dash::Solid, under: Under::Nothing }
+    }
+
+    /// What is written at the curve.
+    pub fn text(&self) -> &str {
+        self.written.as_deref().unwrap_or(&self.label)
     }
 
     /// The same line, thin and muted, as a reference behind the others.
@@ -190,6 +201,17 @@ impl Curve {
     pub fn filled(self, under: Under) -> Self {
         Self { under, ..self }
     }
+}
+
+/// What lines of one kind have in common.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Key {
+    /// What it is.
+    pub text: String,
+    /// Width as a multiple of the style's.
+    pub width: f64,
+    /// Dashes.
+    pub dash: Dash,
 }
 
 /// A filled polygon.
