@@ -6,6 +6,7 @@
 //! | `disk.rs` | files on disk for the library, which opens none itself |
 //! | every other file | a subcommand |
 //! | `check.rs`, `explain.rs`, `measure.rs`, `spectrum.rs` | one file a subcommand |
+//! | `check.rs`, `explain.rs`, `measure.rs`, `plot.rs`, `spectrum.rs` | one file a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
@@ -15,6 +16,8 @@ mod equation;
 mod explain;
 mod list;
 mod measure;
+#[cfg(feature = "plot")]
+mod plot;
 mod spectrum;
 
 use std::io::Write;
@@ -42,6 +45,9 @@ enum Command {
     List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
+    /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
+    #[cfg(feature = "plot")]
+    Plot(plot::Arguments),
     /// Every quantity of one spectrum.
     Spectrum(spectrum::Arguments),
 }
@@ -61,6 +67,8 @@ fn main() -> ExitCode {
         Command::Equation(arguments) => equation::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
+        #[cfg(feature = "plot")]
+        Command::Plot(arguments) => plot::run(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),
     };
     match done {
