@@ -5,8 +5,6 @@
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
 //! | every other file | a subcommand |
-//! | `check.rs`, `explain.rs`, `measure.rs`, `spectrum.rs` | one file a subcommand |
-//! | `check.rs`, `explain.rs`, `measure.rs`, `plot.rs`, `spectrum.rs` | one file a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
