@@ -25,6 +25,17 @@ pub enum ObserverError {
         /// What is allowed, with its unit.
         allowed: String,
     },
+    /// What is asked for would be divided by something that is zero.
+    #[error("{what} is zero: {why}")]
+    Zero {
+        /// What is zero.
+        what: String,
+        /// Why that matters, or what to do.
+        why: String,
+    },
+    /// The name of a white that is none.
+    #[error("the white: {0}")]
+    White(String),
     /// Columns that are not functions of wavelength.
     #[error(transparent)]
     Table(#[from] SpectrumError),
@@ -35,6 +46,7 @@ pub(super) fn within(what: &'static str, value: f64, least: f64, most: f64, unit
     if (least..=most).contains(&value) {
         return Ok(value);
     }
-    let space = if unit.is_empty() { "" } else { " " };
+    let space = if matches!(unit, "" | "°") { "" } else { " " };
+    let most = if most < 1e6 { format!("{most}") } else { format!("{most:e}") };
     Err(ObserverError::OutOfRange { what, value, allowed: format!("{least}{space}{unit} to {most}{space}{unit}") })
 }

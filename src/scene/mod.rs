@@ -11,6 +11,7 @@
 //! | `files`, `reading` | the door to files, the root, what has been read already |
 //! | `placement`, `shape_reader`, `mesh_reader`, `mesh_file` | where things are, and what shape they have |
 //! | `spectrum_reader`, `factor_range`, `surface_reader`, `strength` | spectra, factors, surfaces, how strong a source is |
+//! | `spectrum_argument` | one spectrum or factor given as text |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
 //! | `reader` | the scene as a whole |
@@ -29,7 +30,7 @@ pub mod instrument;
 mod instrument_reader;
 pub mod mesh_file;
 mod mesh_reader;
-mod nearest;
+pub(crate) mod nearest;
 mod object_reader;
 mod observer_reader;
 mod placement;
@@ -38,6 +39,7 @@ mod reading;
 mod sensor_reader;
 mod shape_reader;
 mod source_reader;
+pub mod spectrum_argument;
 mod spectrum_reader;
 mod strength;
 mod surface_reader;
@@ -50,6 +52,7 @@ pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};
 pub use instrument_reader::MOST_POSES;
 pub use reader::{read_scene, scene_from_text};
+pub use spectrum_argument::{GivenFactor, GivenSpectrum, factor_from_text, spectrum_from_text};
 
 use crate::geometry::shape::Shape;
 use crate::source::Source;

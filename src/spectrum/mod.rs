@@ -25,14 +25,17 @@
 //! | `placement` | greedy choice of those wavelengths |
 //! | `test_products` | products of reflectances on which a quadrature is tried |
 //! | `photometry` | radiant, luminous and photon totals |
-//! | `table_text` | text of a curve file to columns, or all its problems |
+//! | `table_text`, `table_reader`, `table_row`, `table_units`, `decimal_comma` | text of a curve file to columns, or all its problems |
+//! | `file` | spectra and factors from files, and to files |
 //! | `library` | embedded tables by name |
 
 pub mod black_body;
 pub mod daylight;
+mod decimal_comma;
 mod density;
 mod error;
 mod factor;
+pub mod file;
 mod gauss_legendre;
 pub mod library;
 mod peak;
@@ -41,10 +44,13 @@ mod placement;
 mod product_integral;
 pub mod quadrature;
 mod scaled_number;
+pub mod spdx;
 mod support;
 mod table;
+mod table_reader;
 mod table_row;
 pub mod table_text;
+pub mod table_units;
 mod term;
 mod test_products;
 

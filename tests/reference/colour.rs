@@ -1,6 +1,7 @@
 //! Group g2, chromaticities and efficacies: black bodies, illuminants, LEDs. One function a family.
 
-use etendue::observer::colour::{Chromaticity, Tristimulus, cie_1931};
+use etendue::observer::Matching;
+use etendue::observer::colour::{Chromaticity, Tristimulus};
 use etendue::quantity::constants::K_M_LM_W;
 use etendue::spectrum::table_text::{TextRules, parse};
 use etendue::spectrum::{Density, Factor, Outside, Table, library, photometry};
@@ -24,7 +25,7 @@ pub(crate) const FAMILIES: &[(&str, Family)] = &[
 ];
 
 fn chromaticity(density: &Density) -> Chromaticity {
-    Tristimulus::of(density, &cie_1931().unwrap()).chromaticity().unwrap()
+    Tristimulus::of(density, &Matching::Cie1931.functions()).chromaticity().unwrap()
 }
 
 fn efficacy(c: &Case, density: &Density) -> f64 {

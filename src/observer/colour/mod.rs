@@ -16,10 +16,11 @@
 //! | `locus` | spectral and daylight locus, white points |
 //!
 //! ```
-//! use etendue::observer::colour::{PlanckianLocus, Tristimulus, cie_1931, correlated_temperature};
+//! use etendue::observer::Matching;
+//! use etendue::observer::colour::{PlanckianLocus, Tristimulus, correlated_temperature};
 //! use etendue::spectrum::library;
 //!
-//! let matching = cie_1931()?;
+//! let matching = Matching::Cie1931.functions();
 //! let d65 = Tristimulus::of(&library::density("D65")?, &matching).chromaticity().unwrap();
 //! assert!((d65.x - 0.3127).abs() < 1e-4 && (d65.y - 0.3290).abs() < 1e-4);
 //! let white = correlated_temperature(d65, &PlanckianLocus::new(&matching))?;
@@ -36,12 +37,12 @@ mod temperature;
 mod tristimulus;
 
 pub use chromaticity::Chromaticity;
-pub use dominant::{DominantWavelength, Hue, dominant_wavelength};
+pub use dominant::{DominantWavelength, Hue, SpectralLocus, dominant_wavelength};
 pub use locus::{LOCUS_RANGE_NM, SpectralPoint, spectral_locus, white_point};
 pub use planckian::PlanckianLocus;
 pub use rgb::{Gamut, Srgb, linear_srgb_of, tristimulus_of_linear_srgb, xyz_of_wright_guild};
 pub use temperature::{CorrelatedTemperature, LARGEST_DUV, LEAST_CCT_K, NoTemperature, correlated_temperature};
-pub use tristimulus::{Tristimulus, cie_1931};
+pub use tristimulus::Tristimulus;
 
 #[cfg(test)]
 mod tests;

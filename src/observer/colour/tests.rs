@@ -1,11 +1,12 @@
 //! Laws of colour.
 
 use super::*;
+use crate::observer::Matching;
 use crate::spectrum::{Density, Factor, library};
 use proptest::prelude::*;
 
 fn matching() -> [Factor; 3] {
-    cie_1931().unwrap()
+    Matching::Cie1931.functions()
 }
 
 fn chromaticity_of(density: &Density) -> Chromaticity {
@@ -129,6 +130,19 @@ fn y_of_a_density_in_watts_is_luminous() {
     let density = library::density("LED-B3").unwrap();
     let v = crate::spectrum::photometry::luminous(&density, &library::v_lambda());
     assert!(close(Tristimulus::absolute(&density, &matching()).y, v, 1e-9));
+}
+
+#[test]
+fn the_rgb_of_wright_and_guild_become_the_xyz_of_1931() {
+    // x̄, ȳ, z̄ were smoothed and extrapolated after the transformation: they agree as chromaticities do in old tables.
+    for name in ["A", "D65", "E", "FL2", "LED-B3"] {
+        let density = library::density(name).unwrap();
+        let rgb = Tristimulus::of(&density, &Matching::WrightGuild1931.functions());
+        let (p, q) = (xyz_of_wright_guild(&rgb).chromaticity().unwrap(), chromaticity_of(&density));
+        assert!(p.distance(&q) < 2e-3, "{name}: {p:?} {q:?}");
+        let xyz = Tristimulus::of(&density, &matching());
+        assert!(close(xyz_of_wright_guild(&rgb).y, xyz.y, 5e-3), "{name}");
+    }
 }
 
 proptest! {

@@ -10,7 +10,6 @@
 
 use super::Chromaticity;
 use crate::quantity::constants::K_M_LM_W;
-use crate::spectrum::library::{self, LookupError};
 use crate::spectrum::{Density, Factor};
 
 /// Three integrals of a density over three functions of wavelength.
@@ -22,12 +21,6 @@ pub struct Tristimulus {
     pub y: f64,
     /// Z, or the third of the three.
     pub z: f64,
-}
-
-/// x̄, ȳ, z̄ of the CIE 1931 standard observer, 360–830 nm, 1 nm. Errors if the library does not hold them.
-pub fn cie_1931() -> Result<[Factor; 3], LookupError> {
-    let function = |name: &str| library::factor(&format!("CIE 1931 2 Degree Standard Observer {name}"));
-    Ok([function("x_bar")?, function("y_bar")?, function("z_bar")?])
 }
 
 impl Tristimulus {
