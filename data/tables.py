@@ -22,6 +22,7 @@ def export(packages):
     lamps()
     sun(packages)
     charts()
+    cameras()
 
 
 def efficiencies():
@@ -58,10 +59,14 @@ def efficiencies():
 
 
 def matching_functions():
-    def one(file_name, key, aliases, column_aliases, source, quantity="colour-matching functions"):
+    def one(file_name, key, aliases, column_aliases, source, quantity="colour-matching functions", corrections=()):
         table = colour.MSDS_CMFS[key]
         # The package holds some zeros as differences of a few 1e-20.
         columns = [(name, [0.0 if abs(v) < 1e-15 else v for v in table.values[:, i]]) for i, name in enumerate(table.labels)]
+        for nm, name, slip, meant in corrections:
+            values, row = dict(columns)[name], list(table.wavelengths).index(nm)
+            assert abs(values[row] - slip) < 1e-12, (key, nm, name)
+            values[row] = meant
         header = {"name": key, "aliases": "; ".join(aliases), "column_aliases": column_aliases, "group": "observer", "kind": "factor",
                   "quantity": quantity, "unit": "1", "source": f'{source}; {COLOUR}, colour.MSDS_CMFS["{key}"]'}
         write(file_name, "colour", table.wavelengths, columns, {name: text for name, text in header.items() if text})
@@ -90,7 +95,10 @@ def matching_functions():
     rgb = "colour-matching functions of real primaries"
     one("rgb_wright_guild_5nm.csv", "Wright & Guild 1931 2 Degree RGB CMFs",
         ["Wright & Guild 1931", "Wright & Guild", "CIE 1931 RGB", "RGB 1931"], letters("rgb", "{0}_bar 1931"),
-        "CIE 1931, from Wright and from Guild; primaries 700, 546.1 and 435.8 nm", rgb)
+        "CIE 1931, from Wright and from Guild; primaries 700, 546.1 and 435.8 nm; three slips of digits in the package are corrected "
+        "(r_bar at 500 nm -0.07137 to -0.07173 and at 580 nm 0.24562 to 0.24526, g_bar at 555 nm 0.20588 to 0.20583): so the rows follow "
+        "from x_bar, y_bar, z_bar and the CIE's matrix within 0.00002 as all others do, and the three columns have equal sums", rgb,
+        corrections=((500, "r_bar", -0.07137, -0.07173), (580, "r_bar", 0.24562, 0.24526), (555, "g_bar", 0.20588, 0.20583)))
     one("rgb_stiles_burch_1955_5nm.csv", "Stiles & Burch 1955 2 Degree RGB CMFs",
         ["Stiles & Burch 1955", "Stiles & Burch 2 degree", "RGB 1955"], letters("rgb", "{0}_bar 1955"),
         "Stiles and Burch 1955; primaries 645.16, 526.32 and 444.44 nm", rgb)
@@ -113,8 +121,8 @@ def alpha_opic(packages):
         "group": "observer", "kind": "factor", "quantity": "alpha-opic action spectrum", "unit": "1",
         "column_quantities": "; ".join(f"{what} action spectrum" for what in
                                        ["s-cone-opic", "m-cone-opic", "l-cone-opic", "rhodopic", "melanopic"]),
-        "source": f"CIE S 026/E:2018, five significant digits; {PYSILSUB}, pysilsub/data/CIES026.csv; s-cone-opic is blank there above 615 nm "
-                  "and 0 here"})
+        "source": f"CIE S 026/E:2018, five significant digits; {PYSILSUB}, pysilsub/data/CIES026.csv; s-cone-opic is blank there above "
+                  "615 nm and 0 here"})
 
 
 def components(packages):
@@ -146,7 +154,7 @@ def half_down(value, digits):
 
 
 def d_series_tail(name, nominal_k, last_nm, digits):
-    """The illuminant by the formula of CIE 015 above `last_nm`: M1, M2 to three decimals, means between rows of 10 nm."""
+    """The illuminant by the formula of CIE 015 above `last_nm`: M1, M2 to three decimals."""
     cct = nominal_k * 1.4388 / 1.4380
     if cct <= 7000:
         x = -4.6070e9 / cct ** 3 + 2.9678e6 / cct ** 2 + 0.09911e3 / cct + 0.244063
@@ -164,9 +172,7 @@ def d_series_tail(name, nominal_k, last_nm, digits):
     table = colour.SDS_ILLUMINANTS[name]
     worst = max(abs(at(nm) - value) for nm, value in zip(table.wavelengths, table.values))
     assert worst < 1e-3, (name, worst)
-    tail = {nm: half_down(at(nm), digits) for nm in range(10 * int(last_nm // 10), 831, 10)}
-    return [tail[nm] if nm % 10 == 0 else half_down((tail[nm - 5] + tail[nm + 5]) / 2, digits)
-            for nm in range(int(last_nm) + 5, 831, 5)]
+    return [half_down(at(nm), digits) for nm in range(int(last_nm) + 5, 831, 5)]
 
 
 def daylight():
@@ -180,9 +186,9 @@ def daylight():
     write("daylight_5nm.csv", "colour", wavelengths, columns, RELATIVE | {
         "name": "CIE daylight illuminants", "aliases": "CIE D series", "column_names_are": "entries",
         "column_aliases": "horizon light; mid-morning daylight; D60 daylight; daylight | noon daylight; north sky daylight",
-        "source": f"{CIE_15}; {COLOUR}, colour.SDS_ILLUMINANTS, for D50, D55, D65, D75 up to 780 nm; from 785 nm by the formula of the D series "
-                  "with M1 and M2 to three decimals and means between rows of 10 nm, which is how the illuminants are defined and "
-                  "reproduces the rows below 780 nm within 0.001"})
+        "source": f"{CIE_15}; {COLOUR}, colour.SDS_ILLUMINANTS, for D50, D55, D65, D75 up to 780 nm; from 785 nm by the formula of the D "
+                  "series with M1 and M2 to three decimals, which reproduces the rows up to 780 nm within 0.00051 "
+                  "(D65 at 545 nm: 0.00085)"})
     columns = [(name, colour.SDS_ILLUMINANTS[name].values) for name in ("ID50", "ID65")]
     write("indoor_daylight_5nm.csv", "colour", colour.SDS_ILLUMINANTS["ID50"].wavelengths, columns, RELATIVE | {
         "name": "CIE indoor daylight illuminants", "aliases": "CIE ID series", "column_names_are": "entries",
@@ -191,13 +197,13 @@ def daylight():
     for name, alias in (("B", "noon sunlight"), ("C", "average daylight")):
         table = colour.SDS_ILLUMINANTS[name]
         write(f"{name.lower()}_5nm.csv", "colour", table.wavelengths, [("relative", table.values)], RELATIVE | {
-            "name": name, "aliases": f"CIE illuminant {name}; {alias}",
+            "name": name, "aliases": f"{alias}; CIE illuminant {name}",
             "source": f'CIE 1931, withdrawn as a standard; CIE 015; {COLOUR}, colour.SDS_ILLUMINANTS["{name}"]'})
     basis = colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES
     write("d_series_basis_5nm.csv", "colour", basis["S0"].wavelengths, [(key, basis[key].values) for key in ("S0", "S1", "S2")], {
         "name": "D series", "aliases": "daylight basis; CIE D series basis", "group": "component", "kind": "factor",
         "quantity": "basis function of the phases of daylight", "unit": "1/nm (relative)",
-        "column_quantities": "mean of the phases of daylight; first vector of the phases of daylight; second vector of the phases of daylight",
+        "column_quantities": "; ".join(f"{which} of the phases of daylight" for which in ("mean", "first vector", "second vector")),
         "source": f"{CIE_15}; {COLOUR}, colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES"})
 
 
@@ -248,10 +254,10 @@ GREYS = {"white 9.5 (.05 D)": "white", "neutral 8 (.23 D)": "neutral 8", "neutra
 
 def charts():
     for file_name, key, name, aliases, source in (
-            ("colorchecker_babel_10nm.csv", "BabelColor Average", "ColorChecker", "ColorChecker BabelColor Average; BabelColor",
+            ("colorchecker_babel_10nm.csv", "BabelColor Average", "ColorChecker", "BabelColor; ColorChecker BabelColor Average",
              "BabelColor, The ColorChecker pages: average of 30 charts"),
             ("colorchecker_ohta_5nm.csv", "ColorChecker N Ohta", "ColorChecker Ohta",
-             "ColorChecker N Ohta; Ohta; ColorChecker ISO 17321-1; ISO 17321-1",
+             "Ohta; ISO 17321-1; ColorChecker N Ohta; ColorChecker ISO 17321-1",
              "Ohta 1997, The Basis of Color Reproduction Engineering; the same numbers as ISO 17321-1:2012")):
         same = colour.SDS_COLOURCHECKERS["ISO 17321-1"]
         assert key != "ColorChecker N Ohta" or all((same[patch].values == table.values).all()
@@ -261,3 +267,15 @@ def charts():
         write(file_name, "colour", next(iter(chart.values())).wavelengths, columns, {
             "name": name, "aliases": aliases, "group": "reflectance", "kind": "factor", "quantity": "spectral reflectance factor",
             "unit": "1", "outside": "hold", "source": f'{source}; {COLOUR}, colour.SDS_COLOURCHECKERS["{key}"]'})
+
+
+def cameras():
+    for file_name, key, aliases in (("camera_nikon_5100_5nm.csv", "Nikon 5100 (NPL)", "Nikon 5100; Nikon D5100"),
+                                    ("camera_sigma_sdmerill_10nm.csv", "Sigma SDMerill (NPL)", "Sigma SD Merrill; Sigma SDMerill")):
+        table = colour.MSDS_CAMERA_SENSITIVITIES[key]
+        columns = [(name, table.values[:, i]) for i, name in enumerate(table.labels)]
+        write(file_name, "colour", table.wavelengths, columns, {
+            "name": key, "aliases": aliases, "group": "responsivity", "kind": "factor", "quantity": "relative spectral responsivity",
+            "unit": "1 (relative)",
+            "source": "Darrodi, Finlayson, Goodman and Mackiewicz 2015, Reference data set for camera spectral sensitivity estimation; "
+                      f'{COLOUR}, colour.MSDS_CAMERA_SENSITIVITIES["{key}"]'})

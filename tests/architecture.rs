@@ -43,6 +43,7 @@ const DOORS: [(&str, &[&str]); 15] = [
         &[
             "src/spectrum/error.rs",
             "src/spectrum/library.rs",
+            "src/observer/error.rs",
             "src/geometry/mesh/error.rs",
             "src/geometry/polygon/mod.rs",
             "src/scene/diagnostic.rs",

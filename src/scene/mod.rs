@@ -13,10 +13,11 @@
 //! | `spectrum_reader`, `factor_range`, `surface_reader`, `strength` | spectra, factors, surfaces, how strong a source is |
 //! | `spectrum_argument` | one spectrum or factor given as text |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
-//! | `sensor_reader`, `channel_reader`, `directional_table` | sensor files |
+//! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
 //! | `reader` | the scene as a whole |
 //! | `checks` | what only the scene as a whole can show |
 
+mod adjustment;
 mod channel_reader;
 mod checks;
 mod decode;
@@ -31,6 +32,7 @@ pub mod mesh_file;
 mod mesh_reader;
 mod nearest;
 mod object_reader;
+mod observer_reader;
 mod placement;
 mod reader;
 mod reading;

@@ -7,6 +7,11 @@ fn plain(name: &str) -> Vec<char> {
     name.chars().filter(|c| c.is_alphanumeric()).take(64).flat_map(char::to_lowercase).collect()
 }
 
+/// Whether two names are the same but for case and separators.
+pub(super) fn same(a: &str, b: &str) -> bool {
+    plain(a) == plain(b)
+}
+
 fn distance(a: &[char], b: &[char]) -> usize {
     let mut rows = vec![vec![0usize; b.len() + 1]; a.len() + 1];
     for (i, row) in rows.iter_mut().enumerate() {

@@ -24,6 +24,7 @@
 //! | `resample` | other grids, on request, with the error stated |
 //! | `term` | a density times factors, cut into smooth pieces |
 //! | `quadrature` | few wavelengths and positive weights for path products |
+//! | `peak` | peak wavelength and half width |
 //! | `placement` | greedy choice of those wavelengths |
 //! | `test_products` | products of reflectances on which a quadrature is tried |
 //! | `photometry` | radiant, luminous and photon totals |
@@ -41,6 +42,7 @@ pub mod file;
 mod gauss_legendre;
 pub mod kernel;
 pub mod library;
+mod peak;
 pub mod photometry;
 mod placement;
 mod product_integral;
@@ -61,6 +63,7 @@ mod test_products;
 pub use density::{Continuum, Density, LED_WIDTH_OVER_FWHM, Line};
 pub use error::SpectrumError;
 pub use factor::Factor;
+pub use peak::Peak;
 pub use support::Support;
 pub use table::{Outside, Table};
 

@@ -4,13 +4,14 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
-//! | `check.rs`, `explain.rs`, `measure.rs` | one file a subcommand |
+//! | every other file | a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
 mod check;
 mod disk;
 mod explain;
+mod list;
 mod measure;
 
 use std::io::Write;
@@ -32,6 +33,8 @@ enum Command {
     Check(check::Arguments),
     /// What will be computed, what is left out, and why.
     Explain(explain::Arguments),
+    /// The curves of the library and the sensor files at hand, by name.
+    List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
 }
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
     };
     match done {

@@ -11,12 +11,6 @@ const COMPARED: usize = 80;
 /// What is compared: letters and digits, in lower case, with signs spelt out and the word "and" left out.
 pub(in crate::spectrum) fn key(name: &str) -> String {
     let (mut key, mut word) = (String::new(), String::new());
-    let finish = |key: &mut String, word: &mut String| {
-        if word != "and" {
-            key.push_str(word);
-        }
-        word.clear();
-    };
     for character in name.chars() {
         match character {
             'λ' => word.push_str("lambda"),
@@ -25,14 +19,26 @@ pub(in crate::spectrum) fn key(name: &str) -> String {
             '\u{304}' | '\u{305}' => word.push_str("bar"),
             'ȳ' => word.push_str("ybar"),
             'ḡ' => word.push_str("gbar"),
-            '°' => word.push_str("degree"),
             '₀'..='₉' => word.extend(char::from_digit(u32::from(character) - u32::from('₀'), 10)),
             _ if character.is_alphanumeric() => word.extend(character.to_lowercase()),
-            _ => finish(&mut key, &mut word),
+            _ => {
+                key.push_str(&spelling(&word));
+                word.clear();
+                key.push_str(if character == '°' { "deg" } else { "" });
+            }
         }
     }
-    finish(&mut key, &mut word);
-    key.replace("colour", "color").replace("degrees", "degree").replace("degree", "deg")
+    key + &spelling(&word)
+}
+
+/// One spelling for words that have several, nothing for "and".
+fn spelling(word: &str) -> String {
+    let degrees = ["degrees", "degree"].iter().find_map(|ending| word.strip_suffix(ending));
+    match degrees {
+        Some(count) if count.chars().all(|digit| digit.is_ascii_digit()) => format!("{count}deg"),
+        _ if word == "and" => String::new(),
+        _ => word.replace("colour", "color"),
+    }
 }
 
 /// Official names and aliases close to `name`, best first, one for each entry.
