@@ -24,7 +24,9 @@ fn main() {
     group.bench_function("table × V", |b| b.iter(|| black_box(&density).integral(&[&v])));
     group.bench_function("table × V × table", |b| b.iter(|| black_box(&density).integral(&[&v, &paint])));
     group.bench_function("total of a table", |b| b.iter(|| black_box(&density).total()));
-    group.bench_function("sum over 1 nm steps × V", |b| b.iter(|| black_box(&density).summed(380.0, 780.0, 1.0).map(|sum| sum.integral(&[&v]))));
+    group.bench_function("sum over 1 nm steps × V", |b| {
+        b.iter(|| black_box(&density).summed(380.0, 780.0, 1.0).map(|sum| sum.integral(&[&v])))
+    });
     group.bench_function("resampled to 5 nm", |b| {
         b.iter(|| resample(black_box(&density), 380.0, 780.0, 5.0, Rule::BinAverages, Lines::Keep).map(|found| found.largest_change));
     });

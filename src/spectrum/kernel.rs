@@ -109,7 +109,13 @@ mod tests {
     use proptest::prelude::*;
 
     fn grid(steps: &[f64], from_nm: f64) -> Vec<f64> {
-        steps.iter().scan(from_nm, |nm, step| { *nm += step; Some(*nm) }).collect()
+        steps
+            .iter()
+            .scan(from_nm, |nm, step| {
+                *nm += step;
+                Some(*nm)
+            })
+            .collect()
     }
 
     proptest! {

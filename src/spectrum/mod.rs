@@ -52,11 +52,11 @@ mod scaled_number;
 pub mod spdx;
 mod support;
 mod table;
+mod table_product;
 mod table_reader;
 mod table_row;
 pub mod table_text;
 pub mod table_units;
-mod table_product;
 mod term;
 mod test_products;
 

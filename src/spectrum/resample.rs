@@ -95,8 +95,14 @@ pub fn resample(density: &Density, from_nm: f64, to_nm: f64, step_nm: f64, rule:
         let (before, after) = (density.integral(&[&weight]), result.integral(&[&weight]));
         (before > 0.0).then(|| after / before - 1.0)
     });
-    let mut resampled =
-        Resampled { density: result, table, largest_change: share(change), observer_changes, lost_outside: share(outside), remarks: Vec::new() };
+    let mut resampled = Resampled {
+        density: result,
+        table,
+        largest_change: share(change),
+        observer_changes,
+        lost_outside: share(outside),
+        remarks: Vec::new(),
+    };
     resampled.remark(rule, lines, old_lines.len(), step_nm);
     Ok(resampled)
 }

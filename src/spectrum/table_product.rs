@@ -66,7 +66,7 @@ pub(super) fn integral(tables: &[&Table]) -> Option<f64> {
     while at_nm < to_nm {
         let next_nm = cursors.iter().map(Cursor::next_nm).fold(to_nm, f64::min);
         let width = next_nm - at_nm;
-        sum.add(match cursors {
+        sum.add(match &*cursors {
             [f] => {
                 let (a, b) = f.values(at_nm, next_nm);
                 width * (0.5 * a + 0.5 * b)

@@ -6,7 +6,7 @@ use etendue::spectrum::resample::{Lines, Rule, resample};
 use etendue::spectrum::{Density, Factor, Outside, Table, black_body, library, photometry};
 use proptest::prelude::*;
 
-use super::bench::{Lamp, exact};
+use crate::bench::exact;
 
 /// 683.002 lm/W times V at a wavelength.
 fn lumens_of_a_watt_at(nm: f64) -> f64 {
@@ -57,9 +57,13 @@ fn a_watt_of_the_green_mercury_line_has_683_002_times_v_lumens() {
 
 #[test]
 fn a_lamp_of_one_line_reads_so_in_a_scene() {
-    // 4π W in all directions: 1 W/sr, 1 W/m² at 1 m.
-    let lamp = Lamp { spectrum: "Line(546.07)", watts: 4.0 * std::f64::consts::PI, at: [0.0, 0.0, 1.0] };
-    assert!((lamp.illuminance_below() / lumens_of_a_watt_at(546.07) - 1.0).abs() < 1e-12);
+    // 1 W/sr from 1 m: 1 W/m².
+    let scene = r#"Scene(
+        sources: [(name: "s", shape: Point, at: (0, 0, 1), strength: WattsPerSteradian(1), spectrum: Line(546.07))],
+        instruments: [(name: "m", at: (0, 0, 0), facing: (0, 0, 1), sensor:
+            Sensor(aperture: Point, acceptance: Cosine, channels: [(name: "E", responsivity: "V", reads: Illuminance)]))],
+    )"#;
+    assert!((exact(scene)[0] / lumens_of_a_watt_at(546.07) - 1.0).abs() < 1e-12);
 }
 
 proptest! {

@@ -8,7 +8,13 @@ fn any_density() -> impl Strategy<Value = Density> {
     let rows = prop::collection::vec((0.5..30.0_f64, 0.0..1.0_f64), 2..40);
     (rows, 0..4_u8, 0.2..60.0_f64).prop_map(|(rows, kind, width)| {
         let mut nm = 400.0;
-        let rows: Vec<(f64, f64)> = rows.into_iter().map(|(step, value)| { nm += step; (nm, value) }).collect();
+        let rows: Vec<(f64, f64)> = rows
+            .into_iter()
+            .map(|(step, value)| {
+                nm += step;
+                (nm, value)
+            })
+            .collect();
         let table = Density::table(Table::from_rows(&rows, Outside::Zero).unwrap()).unwrap();
         match kind {
             0 => table,
