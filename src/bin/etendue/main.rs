@@ -14,6 +14,7 @@ mod equation;
 mod explain;
 mod list;
 mod measure;
+mod spectrum;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -40,6 +41,8 @@ enum Command {
     List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
+    /// Every quantity of one spectrum.
+    Spectrum(spectrum::Arguments),
 }
 
 /// Why a command ended early; what it has to say is on stderr already or is said here.
@@ -57,6 +60,7 @@ fn main() -> ExitCode {
         Command::Equation(arguments) => equation::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
+        Command::Spectrum(arguments) => spectrum::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,12 +1,12 @@
 //! The sheet of a spectrum as a page for a person: lists and small tables, decimal points one under the other.
 //!
-//! A number with an uncertainty is rounded to two digits of it and followed by `±` and the standard uncertainty.
+//! Remarks are not on the page; they are messages. A number with an uncertainty is rounded to two digits of it and followed by `±` and the standard uncertainty.
 
 use super::SpectrumReport;
 use crate::metrology::rounding::{Rounded, format_significant};
 use crate::observer::sheet::{Digits, Group, SheetRow, SheetValue};
 
-/// Widest page, characters; longer reasons and remarks are wrapped.
+/// Widest page, characters; longer reasons are wrapped.
 const PAGE: usize = 100;
 
 /// The report as text.
@@ -24,11 +24,6 @@ pub fn to_text(report: &SpectrumReport) -> String {
         lines.extend([String::new(), group.title().to_owned()]);
         let table = rows.iter().any(|row| !row.column.is_empty());
         lines.extend(if table { table_lines(&rows) } else { list_lines(&rows) });
-    }
-    let mut remarks = report.all_remarks().peekable();
-    if remarks.peek().is_some() {
-        lines.extend([String::new(), "Remarks".to_owned()]);
-        lines.extend(remarks.flat_map(|remark| wrapped(remark, "  - ", "    ")));
     }
     lines.iter().map(|line| format!("{}\n", line.trim_end())).collect()
 }
