@@ -14,6 +14,8 @@ mod equation;
 mod explain;
 mod list;
 mod measure;
+#[cfg(feature = "plot")]
+mod plot;
 mod spectrum;
 
 use std::io::Write;
@@ -41,6 +43,9 @@ enum Command {
     List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
+    /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
+    #[cfg(feature = "plot")]
+    Plot(plot::Arguments),
     /// Every quantity of one spectrum.
     Spectrum(spectrum::Arguments),
 }
@@ -60,6 +65,8 @@ fn main() -> ExitCode {
         Command::Equation(arguments) => equation::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
+        #[cfg(feature = "plot")]
+        Command::Plot(arguments) => plot::run(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),
     };
     match done {
