@@ -3,12 +3,15 @@
 use super::equation::{Domain, Equation, Given, Input, Unit};
 use super::equations;
 use crate::scene::nearest::{by_distance, nearest, suggestion};
-use crate::spectrum::{Density, library};
+use crate::scene::{MemoryFiles, spectrum_from_text};
+use crate::spectrum::Density;
 
 /// Longest wavelength that is taken for a line, nm.
 const LONGEST_NM: f64 = 1e9;
 /// Most characters of a word of the user that are repeated in a message.
 const LONGEST_QUOTE: usize = 60;
+/// Most characters of a message that may repeat them.
+const LONGEST_MESSAGE: usize = 400;
 
 /// Why an equation has no answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -72,6 +75,11 @@ fn quoted(text: &str) -> String {
         short.push('…');
     }
     short
+}
+
+/// A message of another part of the program, which may repeat what was typed.
+fn quoted_at_length(message: &str) -> String {
+    message.chars().take(LONGEST_MESSAGE).collect()
 }
 
 fn problem(message: String, help: impl Into<String>) -> Problem {
@@ -192,15 +200,24 @@ fn understand(input: &Input, given: &[(&str, &str)], problems: &mut Vec<Problem>
     }
 }
 
-/// A spectrum by its name, or a line.
+/// A spectrum in the grammar of scene files without files (the library opens none), or a line by its wavelength.
 fn spectrum(key: &str, text: &str, number: Option<f64>, problems: &mut Vec<Problem>) -> Option<(String, Density)> {
-    let found = match number {
-        Some(nm) if nm > LONGEST_NM => Err(format!("a wavelength of {nm:e} nm; allowed: up to {LONGEST_NM:e} nm")),
-        Some(nm) => Density::line(nm, 1.0).map(|line| (format!("line of {text} nm"), line)).map_err(|e| e.to_string()),
-        None => {
-            let entry = library::entry(text).map_err(|e| e.to_string());
-            entry.and_then(|entry| library::density(text).map(|density| (entry.name.clone(), density)).map_err(|e| e.to_string()))
+    if let Some(nm) = number {
+        let line = if nm > LONGEST_NM { None } else { Density::line(nm, 1.0).ok() };
+        if line.is_none() {
+            let help = format!("allowed: {}; a wavelength is above 0 and up to {LONGEST_NM:e} nm", Domain::Spectrum.words());
+            problems.push(problem(format!("`{key}` is {}, a line at no wavelength", quoted(text)), help));
         }
-    };
-    found.map_err(|why| problems.push(problem(format!("`{key}`: {why}"), format!("allowed: {}", Domain::Spectrum.words())))).ok()
+        return line.map(|line| (format!("line of {text} nm"), line));
+    }
+    match spectrum_from_text(text, &MemoryFiles::new()) {
+        Ok(given) => Some((given.name, given.density)),
+        Err(found) => {
+            problems.extend(found.0.into_iter().map(|p| {
+                let help = p.help.unwrap_or_else(|| format!("allowed: {}", Domain::Spectrum.words()));
+                problem(format!("`{key}`: {}", quoted_at_length(&p.message)), quoted_at_length(&help))
+            }));
+            None
+        }
+    }
 }

@@ -49,7 +49,7 @@ pub enum Domain {
     Above(f64),
     /// Above a number and up to another.
     AboveUpTo(f64, f64),
-    /// A spectrum: a name of the library or a wavelength in nm, which is a line.
+    /// A spectrum: a name of the library, a form of scene files such as `BlackBody(2856)`, or a wavelength in nm, which is a line.
     Spectrum,
 }
 
@@ -77,7 +77,9 @@ impl Domain {
             Self::Between(from, to) => format!("{from} to {to}"),
             Self::Above(least) => format!("finite and above {least}"),
             Self::AboveUpTo(least, most) => format!("above {least}, up to {most}"),
-            Self::Spectrum => "a spectrum of the library such as D65, or a wavelength in nm for a line".into(),
+            Self::Spectrum => {
+                "a spectrum of the library such as D65, a form such as BlackBody(2856), or a wavelength in nm for a line".into()
+            }
         }
     }
 }

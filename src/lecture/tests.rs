@@ -110,10 +110,15 @@ fn spectra_are_names_or_lines() {
     let of = |spectrum: &str| answer("luminous-efficacy-of-a-spectrum", &[("spectrum", spectrum)]);
     assert_eq!(of("555").map(|a| a.value), Ok(683.002));
     assert!(of("D65").is_ok());
-    for (spectrum, part) in [("D56", "nearest"), ("V", "needed here"), ("-5", "above 0"), ("NaN", "above 0"), ("1e300", "up to")] {
+    assert!(of("BlackBody(2856)").is_ok() && of("Sum([(1, \"A\"), (2, Line(555))])").is_ok());
+    for (spectrum, part) in
+        [("D56", "nearest"), ("-5", "above 0"), ("NaN", "above 0"), ("1e300", "up to"), ("lamp.csv", "no such file"), ("", "")]
+    {
         let found = of(spectrum).unwrap_err();
-        assert!(found[0].message.contains(part), "{spectrum}: {found:?}");
+        let all: String = found.iter().map(|p| format!("{} {}\n", p.message, p.help)).collect();
+        assert!(all.contains(part), "{spectrum}: {found:?}");
     }
+    assert!(of("V").is_err(), "V(λ) is no spectrum");
     let blind = problems("radiance-to-luminance", &[("radiance_w_m2_sr", "1"), ("spectrum", "1064")]);
     assert!(blind[0].message.contains("sees nothing"), "{blind:?}");
 }

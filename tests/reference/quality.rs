@@ -2,6 +2,7 @@
 
 use etendue::characterization::directional_mismatch::f2_of_response;
 use etendue::characterization::spectral_mismatch::{Wavelengths, correction_factor, f1_prime};
+use etendue::spectrum::table_text::{TextRules, parse};
 use etendue::spectrum::{Density, Factor, Outside, Table, library};
 
 use super::bench::{Case, Family};
@@ -66,16 +67,19 @@ fn f1_prime_of(c: &Case) -> f64 {
     f1_prime(&responsivity(c), wavelengths(c.text("convention"))).unwrap()
 }
 
-/// The spectrum of a case: a table of the cases, or bells with their peaks.
+/// The spectrum of a case: a table of `tests/reference/data/`, or bells with their heights.
 fn test_source(c: &Case) -> Density {
-    if let Some(file) = c.input("test_source").as_str() {
-        return super::bench::table(file);
+    if let Some(file) = c.value("test_source").as_str() {
+        let path = format!("{}/tests/reference/data/{file}", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let mut curves = parse(&text, &TextRules::default()).unwrap();
+        return Density::table(Table::new(curves.wavelengths_nm, curves.columns.remove(0), Outside::Zero).unwrap()).unwrap();
     }
-    let bells = c.bells("test_source").into_iter().map(|[peak, centre_nm, fwhm_nm]| {
-        let sigma_nm = fwhm_nm / (8.0 * std::f64::consts::LN_2).sqrt();
-        Density::gaussian(peak * sigma_nm * (2.0 * std::f64::consts::PI).sqrt(), centre_nm, sigma_nm).unwrap()
-    });
-    bells.reduce(|sum, bell| sum.plus(&bell)).unwrap()
+    c.records("test_source").iter().fold(Density::zero(), |sum, bell| {
+        let sigma_nm = bell["fwhm_nm"] / (8.0 * std::f64::consts::LN_2).sqrt();
+        let power = bell["peak"] * sigma_nm * (2.0 * std::f64::consts::PI).sqrt();
+        sum.plus(&Density::gaussian(power, bell["centre_nm"], sigma_nm).unwrap())
+    })
 }
 
 fn correction(c: &Case) -> f64 {
