@@ -56,7 +56,9 @@ impl Density {
 fn is_linear_between_breakpoints(factor: &Factor) -> bool {
     let breakpoints = factor.breakpoints();
     match (factor.support().hull(), breakpoints.first(), breakpoints.last()) {
-        (Some((from_nm, to_nm)), Some(first), Some(last)) => factor.degree().is_some_and(|degree| degree <= 1) && first <= &from_nm && &to_nm <= last,
+        (Some((from_nm, to_nm)), Some(first), Some(last)) => {
+            factor.degree().is_some_and(|degree| degree <= 1) && first <= &from_nm && &to_nm <= last
+        }
         _ => false,
     }
 }
