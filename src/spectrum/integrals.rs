@@ -10,6 +10,9 @@
 use super::term::terms;
 use super::{Density, Factor, Outside, SpectrumError, Table};
 
+/// Values this small are about to lose their digits to the range of `f64`: Simpson's rule is enough for them, and no refinement could agree.
+const NEXT_TO_NOTHING: f64 = 1e-280;
+
 impl Density {
     /// [`Density::integral`] for each of `factors`: the same values, to rounding, for less work.
     pub fn integrals(&self, factors: &[&Factor]) -> Vec<f64> {
@@ -32,11 +35,17 @@ impl Density {
         let mut sums = vec![0.0; factors.len()];
         for pair in edges_nm.windows(2) {
             let (low, high) = (pair[0], pair[1]);
+            let [first, middle, last] = [low, 0.5 * (low + high), high].map(|nm| continuum.at(nm));
             let part = |at_low: f64, at_high: f64| -> Result<f64, SpectrumError> {
                 let ramp = Table::new(vec![low, high], vec![at_low, at_high], Outside::Zero)?;
                 Ok(unscaled.integral(&[&Factor::Table(ramp)]))
             };
-            let (falling, rising) = (part(1.0, 0.0)?, part(0.0, 1.0)?);
+            let (falling, rising) = if first.max(middle).max(last) > NEXT_TO_NOTHING {
+                (part(1.0, 0.0)?, part(0.0, 1.0)?)
+            } else {
+                let sixth = (high - low) / 6.0;
+                (sixth * (first + 2.0 * middle), sixth * (2.0 * middle + last))
+            };
             for (sum, factor) in sums.iter_mut().zip(factors) {
                 // From inside: at an end itself a factor may jump.
                 let (first, second) = (factor.at(low + 0.25 * (high - low)), factor.at(low + 0.75 * (high - low)));
