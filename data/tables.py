@@ -186,6 +186,7 @@ def daylight():
     write("daylight_5nm.csv", "colour", wavelengths, columns, RELATIVE | {
         "name": "CIE daylight illuminants", "aliases": "CIE D series", "column_names_are": "entries",
         "column_aliases": "horizon light; mid-morning daylight; D60 daylight; daylight | noon daylight; north sky daylight",
+        "column_quantities": of_light(f"a phase of daylight, {cct_k} K" for cct_k in (5003, 5503, 6003, 6504, 7504)),
         "source": f"{CIE_15}; {COLOUR}, colour.SDS_ILLUMINANTS, for D50, D55, D65, D75 up to 780 nm; from 785 nm by the formula of the D "
                   "series with M1 and M2 to three decimals, which reproduces the rows up to 780 nm within 0.00051 "
                   "(D65 at 545 nm: 0.00085)"})
@@ -193,6 +194,7 @@ def daylight():
     write("indoor_daylight_5nm.csv", "colour", colour.SDS_ILLUMINANTS["ID50"].wavelengths, columns, RELATIVE | {
         "name": "CIE indoor daylight illuminants", "aliases": "CIE ID series", "column_names_are": "entries",
         "column_aliases": "indoor daylight D50; indoor daylight | indoor daylight D65",
+        "column_quantities": of_light(f"{name} behind window glass" for name in ("D50", "D65")),
         "source": f"CIE 184:2009, Indoor daylight illuminants; {COLOUR}, colour.SDS_ILLUMINANTS"})
     for name, alias in (("B", "noon sunlight"), ("C", "average daylight")):
         table = colour.SDS_ILLUMINANTS[name]
@@ -207,30 +209,47 @@ def daylight():
         "source": f"{CIE_15}; {COLOUR}, colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES"})
 
 
+def of_light(lights):
+    return "; ".join(f"relative spectral distribution of {light}" for light in lights)
+
+
 def lamps():
+    """Correlated colour temperatures as published in CIE 015."""
     def series(file_name, name, alias, lamps, source):
-        tables = [(lamp, colour.SDS_ILLUMINANTS[lamp]) for lamp, _ in lamps]
+        tables = [(lamp, colour.SDS_ILLUMINANTS[lamp]) for lamp, *_ in lamps]
         write(file_name, "colour", tables[0][1].wavelengths, [(lamp, table.values) for lamp, table in tables], RELATIVE | {
-            "name": name, "aliases": alias, "column_names_are": "entries", "column_aliases": "; ".join(names for _, names in lamps),
+            "name": name, "aliases": alias, "column_names_are": "entries",
+            "column_aliases": "; ".join(names for _, names, *_ in lamps),
+            "column_quantities": of_light(f"{what}, {cct_k} K" for *_, what, cct_k in lamps),
             "source": f"{source}; {COLOUR}, colour.SDS_ILLUMINANTS"})
 
-    others = {2: "CWF | cool white fluorescent", 3: "white fluorescent", 4: "warm white fluorescent | WWF", 6: "light white fluorescent",
-              7: "broad-band daylight fluorescent", 8: "D50 simulator", 9: "cool white deluxe fluorescent", 10: "TL85 | Ultralume 50",
-              11: "TL84 | Ultralume 40 | three-band fluorescent", 12: "TL83 | Ultralume 30 | U30"}
-    series("fluorescent_5nm.csv", "CIE fluorescent lamps FL", "CIE FL series",
-           [(f"FL{i}", " | ".join([f"F{i}", *filter(None, [others.get(i)])])) for i in range(1, 13)],
-           f"{CIE_15}, fluorescent lamps")
-    series("fluorescent_3_5nm.csv", "CIE fluorescent lamps FL3", "CIE FL3 series", [(f"FL3.{i}", f"F3.{i}") for i in range(1, 16)],
+    standard, broad, three = "a standard fluorescent lamp", "a broad-band fluorescent lamp", "a three-band fluorescent lamp"
+    series("fluorescent_5nm.csv", "CIE fluorescent lamps FL", "CIE FL series", [
+        ("FL1", "F1", standard, 6430), ("FL2", "F2 | CWF | cool white fluorescent", standard, 4230),
+        ("FL3", "F3 | white fluorescent", standard, 3450), ("FL4", "F4 | WWF | warm white fluorescent", standard, 2940),
+        ("FL5", "F5", standard, 6350), ("FL6", "F6 | light white fluorescent", standard, 4150),
+        ("FL7", "F7 | broad-band daylight fluorescent", broad, 6500), ("FL8", "F8 | D50 simulator", broad, 5000),
+        ("FL9", "F9 | cool white deluxe fluorescent", broad, 4150), ("FL10", "F10 | TL85 | Ultralume 50", three, 5000),
+        ("FL11", "F11 | TL84 | Ultralume 40 | three-band fluorescent", three, 4000),
+        ("FL12", "F12 | TL83 | Ultralume 30 | U30", three, 3000)], f"{CIE_15}, fluorescent lamps")
+    kinds = [standard] * 3 + ["a deluxe fluorescent lamp"] * 3 + [three] * 5 + ["a multi-band fluorescent lamp"] * 3 + ["a D65 simulator"]
+    temperatures = [2932, 3965, 6280, 2904, 4086, 4894, 2979, 4006, 4853, 5000, 5854, 2984, 3896, 5045, 6509]
+    series("fluorescent_3_5nm.csv", "CIE fluorescent lamps FL3", "CIE FL3 series",
+           [(f"FL3.{i}", f"F3.{i}", kind, cct_k) for i, (kind, cct_k) in enumerate(zip(kinds, temperatures), 1)],
            f"{CIE_15}, fluorescent lamps, new set")
-    series("high_pressure_5nm.csv", "CIE high pressure lamps HP", "CIE HP series",
-           [("HP1", "high pressure sodium | HPS | sodium lamp"), ("HP2", "colour enhanced high pressure sodium"),
-            ("HP3", "metal halide 1 | metal halide"), ("HP4", "metal halide 2"), ("HP5", "metal halide 3")],
-           f"{CIE_15}, high pressure discharge lamps")
-    series("led_5nm.csv", "CIE LED lamps", "CIE LED series",
-           [("LED-B1", "warm white LED | LED 2733 K"), ("LED-B2", "LED 2998 K"), ("LED-B3", "white LED | LED 4103 K"),
-            ("LED-B4", "LED 5109 K"), ("LED-B5", "cool white LED | LED 6598 K"), ("LED-BH1", "blue hybrid LED"),
-            ("LED-RGB1", "RGB LED"), ("LED-V1", "violet LED 2724 K"), ("LED-V2", "violet LED 4070 K")],
-           f"{CIE_15}, LED lamps")
+    halide = "a metal halide lamp"
+    series("high_pressure_5nm.csv", "CIE high pressure lamps HP", "CIE HP series", [
+        ("HP1", "high pressure sodium | HPS | sodium lamp", "a standard high pressure sodium lamp", 1959),
+        ("HP2", "colour enhanced high pressure sodium", "a colour enhanced high pressure sodium lamp", 2506),
+        ("HP3", "metal halide | metal halide 1", halide, 3144), ("HP4", "metal halide 2", halide, 4002),
+        ("HP5", "metal halide 3", halide, 4039)], f"{CIE_15}, high pressure discharge lamps")
+    blue, violet = "an LED with blue pump and phosphor", "an LED with violet pump and phosphor"
+    series("led_5nm.csv", "CIE LED lamps", "CIE LED series", [
+        ("LED-B1", "warm white LED", blue, 2733), ("LED-B2", "LED 2998 K", blue, 2998), ("LED-B3", "white LED", blue, 4103),
+        ("LED-B4", "LED 5109 K", blue, 5109), ("LED-B5", "cool white LED", blue, 6598),
+        ("LED-BH1", "blue hybrid LED", "a blue LED with phosphor mixed with a red LED", 2851),
+        ("LED-RGB1", "RGB LED", "a mixture of red, green and blue LEDs", 2840), ("LED-V1", "violet LED 2724 K", violet, 2724),
+        ("LED-V2", "violet LED 4070 K", violet, 4070)], f"{CIE_15}, LED lamps")
 
 
 def sun(packages):

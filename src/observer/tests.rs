@@ -40,12 +40,12 @@ fn every_table_that_an_observer_asks_for_is_there() {
 fn efficiencies_and_fundamentals_peak_at_one() {
     for efficiency in Efficiency::ALL {
         let (value, nm) = peak(&efficiency.curve());
-        assert!((value - 1.0).abs() < 1e-5 && (500.0..=560.0).contains(&nm), "{}: {value} at {nm} nm", efficiency.name());
+        assert!((value - 1.0).abs() < 1e-4 && (500.0..=560.0).contains(&nm), "{}: {value} at {nm} nm", efficiency.name());
     }
     for cones in [Cones::StockmanSharpe2, Cones::StockmanSharpe10] {
         for (curve, near_nm) in cones.fundamentals().unwrap().iter().zip([569.0, 542.0, 445.0]) {
             let (value, nm) = peak(curve);
-            assert!((value - 1.0).abs() < 1e-5 && (nm - near_nm).abs() <= 4.0, "{value} at {nm} nm");
+            assert!((value - 1.0).abs() < 1e-4 && (nm - near_nm).abs() <= 4.0, "{value} at {nm} nm");
         }
     }
     for alpha in AlphaOpic::ALL {
@@ -112,7 +112,7 @@ fn the_individual_of_32_years_is_the_standard_observer() {
 fn ages_and_fields_out_of_range_are_errors_with_the_range() {
     let of = |age_yr, field_deg| Individual { age_yr, field_deg }.fundamentals().unwrap_err().to_string();
     assert_eq!(of(15.0, 2.0), "the age is 15; allowed: 20 yr to 80 yr");
-    assert_eq!(of(30.0, 20.0), "the field is 20; allowed: 1 ° to 10 °");
+    assert_eq!(of(30.0, 20.0), "the field is 20; allowed: 1° to 10°");
     assert!(of(f64::NAN, 2.0).contains("NaN"));
     let eye = Individual { age_yr: 30.0, field_deg: 2.0 };
     assert_eq!(eye.lens_density(1000.0).unwrap_err().to_string(), "the wavelength is 1000; allowed: 390 nm to 780 nm");

@@ -82,7 +82,7 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
         let known = channels.iter().find(|channel| list.iter().any(|earlier| earlier.name == channel.name));
         if let Some(channel) = known {
             let (span, help) = if observer {
-                (item.name_span(), "give the two sensors of their own: the names of an observer's channels are fixed")
+                (item.name_span(), "give the two a sensor each: the names of an observer's channels are fixed")
             } else {
                 (item.title_span(), "give each its own name")
             };

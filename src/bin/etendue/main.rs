@@ -10,9 +10,13 @@
 
 mod check;
 mod disk;
+mod equation;
 mod explain;
 mod list;
 mod measure;
+#[cfg(feature = "plot")]
+mod plot;
+mod spectrum;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -33,10 +37,17 @@ enum Command {
     Check(check::Arguments),
     /// What will be computed, what is left out, and why.
     Explain(explain::Arguments),
+    /// Equations of the lecture: list them, or compute one from its inputs.
+    Equation(equation::Arguments),
     /// The curves of the library and the sensor files at hand, by name.
     List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
+    /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
+    #[cfg(feature = "plot")]
+    Plot(plot::Arguments),
+    /// Every quantity of one spectrum.
+    Spectrum(spectrum::Arguments),
 }
 
 /// Why a command ended early; what it has to say is on stderr already or is said here.
@@ -51,8 +62,12 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Equation(arguments) => equation::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
+        #[cfg(feature = "plot")]
+        Command::Plot(arguments) => plot::run(&arguments),
+        Command::Spectrum(arguments) => spectrum::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

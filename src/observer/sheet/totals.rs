@@ -61,7 +61,7 @@ fn shape(density: &Density) -> Vec<Definition> {
     vec![
         of_peak("peak_wavelength", "peak wavelength", "λ_p", peak.map(|peak| peak.wavelength_nm), "no peak"),
         of_peak("half_width", "full width at half maximum", "Δλ_0.5", peak.and_then(|peak| peak.fwhm_nm), no_width),
-        number(row("centroid_wavelength", Group::Shape, "centroid wavelength", "λ_c", "nm"), |get| {
+        number(row("centroid_wavelength", Group::Shape, "centroid wavelength", "λ_m", "nm"), |get| {
             get(Functional::FirstMoment) / get(Functional::Radiant)
         }),
     ]

@@ -31,7 +31,8 @@ impl SpectralQuantity {
     }
 
     /// The quantity whose spectral density has this unit, written in any of the usual ways (`W/(m² nm)`, `W m^-2 nm^-1`, `W·m⁻²·nm⁻¹`,
-    /// `W/nm`). An irradiance is taken for a unit that it shares with an exitance. `None` for another unit, also a multiple such as mW.
+    /// `W/nm`). Per µm counts as per nm, because tables are per nm once they are read. An irradiance is taken for a unit that it shares
+    /// with an exitance. `None` for another unit, also for a multiple such as mW.
     pub fn of_unit(unit: &str) -> Option<Self> {
         let (numerator, denominator) = unit.split_once('/').map_or((unit, ""), |(over, under)| (over, under));
         let mut factors = Vec::new();
@@ -137,7 +138,8 @@ fn powers(text: &str, sign: i32) -> Option<Vec<(String, i32)>> {
             let start = word.find(|c: char| c == '-' || c.is_ascii_digit()).unwrap_or(word.len());
             let (name, power) = word.split_at(start);
             let power: i32 = if power.is_empty() { 1 } else { power.parse().ok()? };
-            (!name.is_empty()).then(|| (name.to_lowercase(), sign.saturating_mul(power)))
+            let name = if matches!(name, "um" | "µm" | "μm") { "nm".to_owned() } else { name.to_lowercase() };
+            (!name.is_empty()).then(|| (name, sign.saturating_mul(power)))
         })
         .collect()
 }
@@ -168,6 +170,7 @@ mod tests {
             ("W/m2/nm", Some(Q::Irradiance)),
             ("W/(m^2 sr nm)", Some(Q::Radiance)),
             ("W/(sr nm)", Some(Q::Intensity)),
+            ("W/(m² µm)", Some(Q::Irradiance)),
             ("mW/(m² nm)", None),
             ("W/m²", None),
             ("1/nm (relative)", None),

@@ -1,12 +1,12 @@
 //! The sheet of a spectrum as a page for a person: lists and small tables, decimal points one under the other.
 //!
-//! A number with an uncertainty is rounded to two digits of it and followed by `±` and the standard uncertainty.
+//! Remarks are not on the page; they are messages. A number with an uncertainty is rounded to two digits of it and followed by `±` and the standard uncertainty.
 
 use super::SpectrumReport;
 use crate::metrology::rounding::{Rounded, format_significant};
 use crate::observer::sheet::{Digits, Group, SheetRow, SheetValue};
 
-/// Widest page, characters; longer reasons and remarks are wrapped.
+/// Widest page, characters; longer reasons are wrapped.
 const PAGE: usize = 100;
 
 /// The report as text.
@@ -24,11 +24,6 @@ pub fn to_text(report: &SpectrumReport) -> String {
         lines.extend([String::new(), group.title().to_owned()]);
         let table = rows.iter().any(|row| !row.column.is_empty());
         lines.extend(if table { table_lines(&rows) } else { list_lines(&rows) });
-    }
-    let mut remarks = report.all_remarks().peekable();
-    if remarks.peek().is_some() {
-        lines.extend([String::new(), "Remarks".to_owned()]);
-        lines.extend(remarks.flat_map(|remark| wrapped(remark, "  - ", "    ")));
     }
     lines.iter().map(|line| format!("{}\n", line.trim_end())).collect()
 }
@@ -50,7 +45,7 @@ fn list_lines(rows: &[&SheetRow]) -> Vec<String> {
             SheetValue::Text(text) => lines.push(format!("{head}{}{text}", " ".repeat(column.indent()))),
             SheetValue::Undefined(why) => {
                 let indent = " ".repeat(head.chars().count() + column.indent());
-                lines.extend(wrapped(&format!("– ({why})"), &format!("{head}{}", " ".repeat(column.indent())), &format!("{indent}   ")));
+                lines.extend(wrapped(&format!("– {why}"), &format!("{head}{}", " ".repeat(column.indent())), &format!("{indent}  ")));
             }
         }
     }
@@ -110,7 +105,11 @@ fn number(row: &SheetRow) -> Option<String> {
         return Some(rounded.to_string());
     }
     Some(match row.digits {
-        Digits::Significant(digits) => format_significant(value, digits),
+        // A reader of a page wants 109503 lx, not 1.0950e5 lx.
+        Digits::Significant(digits) => match value.abs() {
+            size if (1e5..9_999_999.5).contains(&size) => format!("{value:.0}"),
+            _ => format_significant(value, digits),
+        },
         Digits::Decimals(places) => {
             let text = format!("{value:.places$}");
             // Rounding to nothing leaves a sign behind.
