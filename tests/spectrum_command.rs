@@ -110,6 +110,30 @@ fn an_unknown_unit_is_not_guessed() {
 }
 
 #[test]
+fn a_spectrum_is_written_again_and_reads_back() {
+    for (format, extension) in [("csv", "csv"), ("spdx", "spdx")] {
+        let path = file(&format!("again.{extension}"), b"");
+        let output = spectrum(&["LED-B3", "--resample", "380:780:1", "--as", format, "--out", path.to_str().unwrap()]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert!(text(&output.stderr).contains("remark: "));
+        let [again, before] = [json(&[path.to_str().unwrap()]), json(&["LED-B3"])];
+        assert!((number(&again, "cct") / number(&before, "cct") - 1.0).abs() < 1e-3, "{format}");
+    }
+    let output = spectrum(&["BlackBody(3000)", "--as", "csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("--resample"));
+}
+
+#[test]
+fn resampling_says_what_it_costs() {
+    let output = spectrum(&["FL11", "--resample", "380:780:10", "--format", "json"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let sheet: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(!sheet["remarks"].as_array().unwrap().is_empty());
+    assert_eq!(spectrum(&["FL11", "--resample", "780:380:5"]).status.code(), Some(2));
+}
+
+#[test]
 fn csv_reads_back() {
     let output = spectrum(&["A", "--format", "csv"]);
     let page = text(&output.stdout);

@@ -19,6 +19,7 @@
 //! | `black_body` | Planck's law |
 //! | `daylight` | the CIE's D series |
 //! | `product_integral` | exact integrals of products |
+//! | `integrals` | many of them at once |
 //! | `table_product` | the same for tables alone, by closed forms |
 //! | `kernel` | weights of a grid: integrals as dot products |
 //! | `resample` | other grids, on request, with the error stated |
@@ -40,6 +41,7 @@ mod error;
 mod factor;
 pub mod file;
 mod gauss_legendre;
+mod integrals;
 pub mod kernel;
 pub mod library;
 mod peak;
