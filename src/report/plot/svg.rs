@@ -161,7 +161,7 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
     let mut wanted = Vec::new();
     for (own, curve) in chart.curves.iter().enumerate() {
         if curves && !curve.text().is_empty() && !obstacles[own].lines.is_empty() {
-            let request = Request { size: size(curve.text()), lines: obstacles[own].lines.clone(), own, clear: 0.45 * em };
+            let request = Request { size: size(curve.text()), lines: obstacles[own].lines.clone(), own, clear: 0.45 * em, may_cross: true };
             wanted.push(Wanted { text: curve.text().to_owned(), ink: look.readable(curve.ink), request, needed: true });
         }
     }
@@ -170,7 +170,7 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
         // Only the head: a name half-way up would be taken for a place on the wavelength axis.
         let head = obstacles[own].lines.iter().flatten().copied().min_by(|a, b| a[1].total_cmp(&b[1]));
         if let (false, Some(head)) = (impulse.label.is_empty(), head) {
-            let request = Request { size: size(&impulse.label), lines: vec![vec![head]], own, clear: 0.45 * em };
+            let request = Request { size: size(&impulse.label), lines: vec![vec![head]], own, clear: 0.45 * em, may_cross: false };
             wanted.push(Wanted { text: impulse.label.clone(), ink: Ink::Text, request, needed: false });
         }
     }
@@ -178,7 +178,7 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
         let own = chart.curves.len() + chart.impulses.len() + index;
         if !point.label.is_empty() {
             let clear = radius_px(look, point.radius) + 0.3 * em;
-            let request = Request { size: size(&point.label), lines: obstacles[own].lines.clone(), own, clear };
+            let request = Request { size: size(&point.label), lines: obstacles[own].lines.clone(), own, clear, may_cross: false };
             wanted.push(Wanted { text: point.label.clone(), ink: Ink::Text, request, needed: false });
         }
     }
