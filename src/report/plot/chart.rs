@@ -5,6 +5,7 @@
 //! | `title`, `subtitle` | two lines of text above |
 //! | `x`, `y` | hair grid, tick labels, quantity and unit; linear or logarithmic |
 //! | `spans` | ranges of x shaded over the whole height, such as the visible band |
+//! | `shade` | an area coloured point by point, behind everything but the grid |
 //! | `areas` | filled polygons, at the very back |
 //! | `bands` | uncertainty between two curves |
 //! | `curves` | lines with a label at the curve itself |
@@ -34,6 +35,8 @@ pub struct Chart {
     pub strip: Vec<Stop>,
     /// Ranges of x.
     pub spans: Vec<Span>,
+    /// An area coloured point by point.
+    pub shade: Option<Shade>,
     /// Filled polygons.
     pub areas: Vec<Area>,
     /// Bands between two curves.
@@ -62,6 +65,7 @@ impl Chart {
             proportion: None,
             strip: Vec::new(),
             spans: Vec::new(),
+            shade: None,
             areas: Vec::new(),
             bands: Vec::new(),
             curves: Vec::new(),
@@ -286,4 +290,24 @@ pub struct Span {
     pub from: f64,
     /// Right end.
     pub to: f64,
+}
+
+/// An area coloured point by point: rows of horizontal gradients inside an outline.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shade {
+    /// Corners of the outline, in order.
+    pub outline: Vec<[f64; 2]>,
+    /// Rows that together cover it.
+    pub rows: Vec<ShadeRow>,
+}
+
+/// Colours along x between two heights.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShadeRow {
+    /// Lower end.
+    pub from: f64,
+    /// Upper end.
+    pub to: f64,
+    /// Colours, rising in x.
+    pub stops: Vec<Stop>,
 }

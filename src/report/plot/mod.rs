@@ -15,7 +15,9 @@
 //! | `layout` | places of frame, texts, legend |
 //! | `labels` | names beside the curves, where there is room |
 //! | `canvas` | lines and areas through plotters |
+//! | `shade` | areas coloured point by point |
 //! | `svg`, `png`, `table` | the documents |
+//! | `chromaticity` | spectral, Planckian and daylight loci, white points, gamuts |
 //! | `wavelength_colour` | colours of wavelengths, smooth to the eye |
 //! | `v_lambda` | luminous efficiency functions |
 //!
@@ -31,11 +33,13 @@
 mod axis;
 mod canvas;
 pub mod chart;
+pub mod chromaticity;
 mod error;
 mod labels;
 mod layout;
 mod png;
 mod polyline;
+mod shade;
 mod style;
 mod svg;
 mod table;

@@ -79,6 +79,8 @@ pub(super) struct Look {
     /// Width of a line of the grid.
     pub(super) hair_px: f64,
     pub(super) tint: f64,
+    /// Opacity of an area coloured point by point: pale on white, deep on black, so that lines and text show on it.
+    pub(super) shade: f64,
 }
 
 impl Style {
@@ -119,6 +121,7 @@ impl Style {
             title_px: 1.3 * text_px,
             line_px: 0.14 * text_px,
             hair_px: 0.07 * text_px,
+            shade: if dark { 0.6 } else { 0.72 },
             tint: if dark { 0.16 } else { 0.10 },
         }
     }

@@ -7,6 +7,7 @@ use super::error::PlotError;
 use super::labels::{self, Obstacle, Request};
 use super::layout::{self, Layout};
 use super::polyline::{Rectangle, pieces, polygon_in, thinned};
+use super::shade;
 use super::style::{Look, Style};
 use super::text::{CAP_EM, DESCENT_EM, FAMILY, Ruler, Weight, Written, escaped, number};
 
@@ -224,6 +225,9 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &[Written]) -> 
     let strip_name = gradient_name(chart);
     canvas.rectangle(&Rectangle { left: 0.0, top: 0.0, right: look.width, bottom: look.height }, Paint::Plain(look.background), 1.0)?;
     behind(chart, look, layout, &mut canvas)?;
+    if let Some(shade) = &chart.shade {
+        canvas.elements += &shade::svg(shade, &strip_name, look.shade, frame, |point| place(chart, frame, point));
+    }
     for area in &chart.areas {
         let polygon = polygon_in(&on_page(chart, frame, &area.points), frame);
         canvas.area(&thinned(&polygon, THINNING_PX), Paint::Plain(look.colour(area.ink)), area.opacity)?;
