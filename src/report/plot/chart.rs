@@ -131,6 +131,8 @@ pub enum Ink {
     Text,
     /// The colour of what stands behind: references, minor text.
     Muted,
+    /// The colour of text and lines on a shade, dark in both themes.
+    OnShade,
     /// A colour of its own, sRGB.
     Fixed([u8; 3]),
 }
@@ -172,17 +174,29 @@ pub struct Curve {
     pub dash: Dash,
     /// Fill below.
     pub under: Under,
+    /// Whether the name is written in the picture; it stands in the table of numbers in any case.
+    pub written: bool,
 }
 
 impl Curve {
     /// A solid line of ordinary width.
     pub fn new(label: &str, points: Vec<[f64; 2]>, ink: Ink) -> Self {
-        Self { label: label.to_owned(), points, ink, width: 1.0, dash: Dash::Solid, under: Under::Nothing }
+        Self { label: label.to_owned(), points, ink, width: 1.0, dash: Dash::Solid, under: Under::Nothing, written: true }
     }
 
     /// The same line, thin and muted, as a reference behind the others.
     pub fn behind(self) -> Self {
         Self { ink: Ink::Muted, width: 0.6, ..self }
+    }
+
+    /// Whether a name is to be written in the picture.
+    pub(super) fn is_named(&self) -> bool {
+        self.written && !self.label.is_empty()
+    }
+
+    /// The same line, named in the table of numbers only.
+    pub fn unwritten(self) -> Self {
+        Self { written: false, ..self }
     }
 
     /// The same line, dashed or dotted.

@@ -6,7 +6,7 @@ use super::chart::{Anchor, Axis, Chart, Dash, Ink, Under};
 use super::error::PlotError;
 use super::labels::{self, Obstacle, Request};
 use super::layout::{self, Layout};
-use super::polyline::{Rectangle, pieces, polygon_in, thinned};
+use super::polyline::{Rectangle, is_inside, pieces, polygon_in, thinned};
 use super::shade;
 use super::style::{Look, Style};
 use super::text::{CAP_EM, DESCENT_EM, FAMILY, Ruler, Weight, Written, escaped, number};
@@ -27,7 +27,7 @@ pub fn svg(chart: &Chart, style: &Style) -> Result<String, PlotError> {
     let look = style.look(chart.proportion);
     let announced = layout::texts(chart);
     let ruler = Ruler::new(announced.iter().map(|(text, weight)| (text.as_str(), *weight)))?;
-    let named = chart.curves.iter().filter(|curve| !curve.label.is_empty()).count();
+    let named = chart.curves.iter().filter(|curve| curve.is_named()).count();
     if named <= MOST_DIRECT_LABELS {
         let layout = layout::layout(chart, &look, &ruler, false)?;
         if let Some(labels) = direct_labels(chart, &look, &ruler, &layout) {
@@ -145,7 +145,7 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
     let size = |text: &str| [ruler.width(text, Weight::Regular, em), (CAP_EM + DESCENT_EM) * em];
     let mut wanted = Vec::new();
     for (own, curve) in chart.curves.iter().enumerate() {
-        if curves && !curve.label.is_empty() && !obstacles[own].lines.is_empty() {
+        if curves && curve.is_named() && !obstacles[own].lines.is_empty() {
             let request = Request { size: size(&curve.label), lines: obstacles[own].lines.clone(), own, clear: 0.45 * em };
             wanted.push(Wanted { text: curve.label.clone(), ink: curve.ink, request, needed: true });
         }
@@ -187,6 +187,7 @@ fn labels_of(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout, curves:
     let fixed: Vec<Rectangle> = fixed_texts(chart, look, &layout.frame).iter().map(|written| box_of(written, ruler)).collect();
     let requests: Vec<Request> = wanted.iter().map(|wanted| wanted.request.clone()).collect();
     let placed = labels::place(&requests, &obstacles, &fixed, &layout.frame, em);
+    let shade = chart.shade.as_ref().map(|shade| on_page(chart, &layout.frame, &shade.outline));
     let mut written = Vec::new();
     for (wanted, area) in wanted.iter().zip(placed) {
         let Some(area) = area else {
@@ -196,7 +197,9 @@ fn labels_of(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout, curves:
             continue;
         };
         let baseline = area.bottom - DESCENT_EM * em;
-        let colour = look.colour(wanted.ink);
+        let middle = [0.5 * (area.left + area.right), 0.5 * (area.top + area.bottom)];
+        let on_shade = wanted.ink == Ink::Text && shade.as_ref().is_some_and(|outline| is_inside(outline, middle));
+        let colour = look.colour(if on_shade { Ink::OnShade } else { wanted.ink });
         written.push(Written {
             text: wanted.text.clone(),
             x: area.left,
