@@ -1,5 +1,9 @@
 //! Why a picture cannot be drawn.
 
+use crate::observer::ObserverError;
+use crate::spectrum::SpectrumError;
+use crate::spectrum::library::LookupError;
+
 /// A chart that is not one, or a drawing that failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlotError {
@@ -35,6 +39,15 @@ pub enum PlotError {
         /// What was found and what is allowed.
         what: String,
     },
+    /// A value that an observer does not have.
+    #[error(transparent)]
+    Observer(#[from] ObserverError),
+    /// A curve that is none.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+    /// A name that the library does not have.
+    #[error(transparent)]
+    Lookup(#[from] LookupError),
     /// The drawing library failed.
     #[error("the drawing failed: {0}")]
     Drawing(String),

@@ -116,7 +116,10 @@ fn candidates(request: &Request, all: &Cover, others: &Cover, texts: &[Rectangle
         let (first, last) = (walk[0], walk[walk.len() - 1]);
         for anchor in &walk {
             let from = |place: [f64; 2]| (anchor[0] - place[0]).hypot(anchor[1] - place[1]) / frame.width();
-            let favour = from(peak).min(from(last) + 0.05).min(from(first) + 0.1);
+            // Where lines run together a label could be any one's.
+            let alone = Rectangle { left: anchor[0], top: anchor[1], right: anchor[0], bottom: anchor[1] }.grown(0.4 * em);
+            let shared = if others.within(&alone) > 0 { 0.8 } else { 0.0 };
+            let favour = shared + from(peak).min(from(last) + 0.05).min(from(first) + 0.1);
             for (ring, gap) in [0.0, 0.25, 0.55, 0.95].into_iter().enumerate() {
                 let gap = request.clear + gap * em;
                 for (dx, dy) in [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {

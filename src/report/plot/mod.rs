@@ -18,28 +18,36 @@
 //! | `shade` | areas coloured point by point |
 //! | `svg`, `png`, `table` | the documents |
 //! | `chromaticity` | spectral, Planckian and daylight loci, white points, gamuts |
+//! | `sample` | points of a function, colours along an axis |
 //! | `wavelength_colour` | colours of wavelengths, smooth to the eye |
-//! | `v_lambda` | luminous efficiency functions |
+//! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody` | a plot each |
 //!
 //! ```
 //! use etendue::report::plot::{self, Size, Style, Theme};
 //!
-//! let chart = plot::v_lambda::chart()?;
+//! let chart = plot::v_lambda::chart(&plot::v_lambda::Choice::default())?;
 //! let picture = plot::svg(&chart, &Style { theme: Theme::Light, size: Size::Paper })?;
 //! assert!(picture.contains("Wavelength") && plot::csv(&chart).starts_with("item,kind,"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod axis;
+pub mod blackbody;
 mod canvas;
 pub mod chart;
 pub mod chromaticity;
+pub mod cmf;
+pub mod cones;
 mod error;
 mod labels;
 mod layout;
+pub mod pigments;
 mod png;
 mod polyline;
+pub mod reflectance;
+mod sample;
 mod shade;
+pub mod spectrum;
 mod style;
 mod svg;
 mod table;

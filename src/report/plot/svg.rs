@@ -9,7 +9,7 @@ use super::layout::{self, Layout};
 use super::polyline::{Rectangle, is_inside, pieces, polygon_in, thinned};
 use super::shade;
 use super::style::{Look, Style};
-use super::text::{CAP_EM, DESCENT_EM, FAMILY, Ruler, Weight, Written, escaped, number};
+use super::text::{CAP_EM, DESCENT_EM, FAMILY, Ruler, Weight, Written, escaped, number, plain};
 
 /// Most curves that are named at the curve itself; more get a legend.
 const MOST_DIRECT_LABELS: usize = 12;
@@ -285,8 +285,8 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &[Written]) -> 
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {view}\" role=\"img\" font-family=\"{FAMILY}\">\n\
          <title>{}</title>\n<desc>{}</desc>\n",
-        escaped(&chart.title),
-        escaped(&description(chart)),
+        escaped(&plain(&chart.title)),
+        escaped(&plain(&description(chart))),
     );
     if !chart.strip.is_empty() {
         let stops: Vec<_> = chart.strip.iter().map(|stop| (axis::place(&chart.x, stop.x), stop.colour, stop.opacity)).collect();

@@ -13,6 +13,7 @@
 use std::fmt::Write as _;
 
 use super::chart::Chart;
+use super::text::plain;
 
 /// The table of a chart.
 pub fn csv(chart: &Chart) -> String {
@@ -44,7 +45,8 @@ pub fn csv(chart: &Chart) -> String {
 
 /// A field, in quotes where it holds what would end it. A text that a spreadsheet would take for a formula gets an apostrophe.
 fn quoted(text: &str) -> String {
-    let text = if text.starts_with(['=', '+', '@']) { format!("'{text}") } else { text.to_owned() };
+    let text = plain(text);
+    let text = if text.starts_with(['=', '+', '@']) { format!("'{text}") } else { text };
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }
 

@@ -1,7 +1,7 @@
 //! Text in pictures: the font that comes with the program, how wide a text is, and how it is written into SVG.
 //!
 //! Roboto 2.138 (Apache-2.0, `assets/Roboto-LICENSE.txt`) in Regular and Medium. Widths are those of the layout that makes the PNG, kerning
-//! and combining marks included. The SVG holds text as text; a viewer without Roboto takes a sans-serif of about the same widths.
+//! and combining marks included. `_{…}` in a text is a subscript. The SVG holds text as text; a viewer without Roboto takes a sans-serif of about the same widths.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
@@ -21,6 +21,10 @@ pub(super) const FAMILY: &str = "Roboto, 'Helvetica Neue', Helvetica, Arial, 'Li
 pub(super) const CAP_EM: f64 = 0.72;
 /// Depth of descenders, in sizes of the text.
 pub(super) const DESCENT_EM: f64 = 0.22;
+
+/// Size of a subscript and how far below the line it stands, in sizes of the text.
+const SUBSCRIPT_SIZE: f64 = 0.72;
+const SUBSCRIPT_DROP_EM: f64 = 0.18;
 
 /// Regular or bold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -67,7 +71,7 @@ impl Ruler {
         let mut document = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"10\" height=\"10\" font-family=\"{FAMILY}\">");
         for (index, (weight, text)) in keys.iter().enumerate() {
             let weight = weight.number();
-            document += &format!("<text id=\"t{index}\" font-size=\"{SIZE}\" font-weight=\"{weight}\">{}</text>", escaped(text));
+            document += &format!("<text id=\"t{index}\" font-size=\"{SIZE}\" font-weight=\"{weight}\">{}</text>", content(text, SIZE));
         }
         document += "</svg>";
         let tree = usvg::Tree::from_str(&document, &options()).map_err(|e| PlotError::Drawing(e.to_string()))?;
@@ -136,9 +140,49 @@ impl Written {
         format!(
             "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{weight}{anchor} fill=\"{}\">{}</text>\n",
             hex(self.colour),
-            escaped(&self.text)
+            content(&self.text, self.size_px)
         )
     }
+}
+
+/// The pieces of a text and whether each is a subscript.
+fn runs(text: &str) -> Vec<(&str, bool)> {
+    let mut runs = Vec::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once("_{") {
+        let Some((below, after)) = after.split_once('}') else { break };
+        runs.extend([(before, false), (below, true)]);
+        rest = after;
+    }
+    runs.push((rest, false));
+    runs.retain(|(run, _)| !run.is_empty());
+    runs
+}
+
+/// A text without its marks, for tables and descriptions: `V_F(λ)`.
+pub(super) fn plain(text: &str) -> String {
+    runs(text).into_iter().map(|(run, below)| if below { format!("_{run}") } else { run.to_owned() }).collect()
+}
+
+/// What stands inside a text element of a size.
+fn content(text: &str, size_px: f64) -> String {
+    let drop = SUBSCRIPT_DROP_EM * size_px;
+    let mut out = String::new();
+    let mut lowered = false;
+    for (run, below) in runs(text) {
+        let run = escaped(run);
+        match (below, lowered) {
+            (true, _) => {
+                let small = number(SUBSCRIPT_SIZE * size_px);
+                out += &format!("<tspan dy=\"{}\" font-size=\"{small}\">{run}</tspan>", number(drop));
+            }
+            // A shift holds for all that follows, so it is taken back.
+            (false, true) => out += &format!("<tspan dy=\"{}\">{run}</tspan>", number(-drop)),
+            (false, false) => out += &run,
+        }
+        lowered = below;
+    }
+    out
 }
 
 /// Two decimals, without trailing zeros.
@@ -181,6 +225,13 @@ mod tests {
     #[test]
     fn nothing_that_is_written_can_break_the_document() {
         assert_eq!(escaped("a<b> & \"c\"\u{1}\n"), "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd} ");
+    }
+
+    #[test]
+    fn subscripts_are_lowered_and_taken_back() {
+        let svg = content("V_{F}(λ) < 1", 10.0);
+        assert_eq!(svg, "V<tspan dy=\"1.8\" font-size=\"7.2\">F</tspan><tspan dy=\"-1.8\">(λ) &lt; 1</tspan>");
+        assert_eq!([plain("V_{F}(λ)"), plain("a_b {c} _{"), content("a_{b", 1.0)], ["V_F(λ)", "a_b {c} _{", "a_{b"].map(str::to_owned));
     }
 
     #[test]

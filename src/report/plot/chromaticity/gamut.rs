@@ -64,7 +64,7 @@ pub(super) fn draw(chart: &mut Chart, contents: &Contents) -> Result<(), PlotErr
         let corners = gamut.primaries.iter().chain(gamut.primaries.first());
         let points = corners.map(|corner| contents.diagram.place(corner)).collect();
         let dash = [Dash::Dashed, Dash::Solid, Dash::Dotted][index % 3];
-        let mut curve = Curve::new(&gamut.name, points, Ink::Text).dashed(dash);
+        let mut curve = Curve::new(&gamut.name, points, Ink::OnShade).dashed(dash);
         curve.width = 0.6;
         chart.curves.push(curve);
     }

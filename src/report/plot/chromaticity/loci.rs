@@ -1,26 +1,28 @@
 //! Lines of a chromaticity diagram: spectral locus, purple line, Planckian and daylight locus, lines of equal correlated temperature.
 
 use super::super::chart::{Anchor, Chart, Curve, Dash, Ink, Note};
-use super::{Diagram, unnamed};
+use super::Diagram;
 use crate::observer::colour::{Chromaticity, LOCUS_RANGE_NM, PlanckianLocus, Tristimulus, spectral_locus};
 use crate::spectrum::{Density, Factor};
 
-/// Temperatures with a line across the Planckian locus, K; the last stands for infinity.
-const TICKS_K: [f64; 9] = [1500.0, 2000.0, 2500.0, 3000.0, 4000.0, 5000.0, 6500.0, 10_000.0, f64::INFINITY];
+/// Temperatures with a line across the Planckian locus, K, those first whose numbers are written first; the last stands for infinity.
+const TICKS_K: [f64; 9] = [2000.0, 10_000.0, 3000.0, f64::INFINITY, 5000.0, 1500.0, 4000.0, 6500.0, 2500.0];
 /// Half the length of such a line in CIE 1960 u, v.
-const HALF_DUV: f64 = 0.011;
+const HALF_DUV: f64 = 0.007;
 /// Coolest temperature of the drawn locus, K.
 const COOLEST_K: f64 = 1000.0;
 /// Hottest temperature that is computed; closer to infinity than a line is wide.
 const HOTTEST_K: f64 = 1e9;
 
-/// The spectral locus from 380 nm to 780 nm, every nm; the purple line closes it.
+/// Wavelengths between which the locus is drawn: up to 700 nm, where it stands still for the 2° observer and folds back for the others.
+pub(super) const DRAWN_NM: (f64, f64) = (LOCUS_RANGE_NM.0, 700.0);
+
+/// The spectral locus, every nm; the purple line closes it.
 pub(super) fn spectral(diagram: Diagram, matching: &[Factor; 3]) -> Vec<[f64; 2]> {
-    let (from_nm, to_nm) = LOCUS_RANGE_NM;
-    spectral_locus(matching, from_nm, to_nm, 1.0).iter().map(|point| diagram.place(&point.chromaticity)).collect()
+    spectral_locus(matching, DRAWN_NM.0, DRAWN_NM.1, 1.0).iter().map(|point| diagram.place(&point.chromaticity)).collect()
 }
 
-/// Planckian locus with its lines, daylight locus.
+/// Planckian locus with its lines, daylight locus. `em` is the size of the text in units of the plane.
 pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], em: f64) {
     let planckian = PlanckianLocus::new(matching);
     // Equal steps of reciprocal temperature are about equal steps along the locus.
@@ -29,25 +31,33 @@ pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], 
         let per_k = 1.0 / COOLEST_K + (1.0 / HOTTEST_K - 1.0 / COOLEST_K) * f64::from(i) / f64::from(count);
         planckian.chromaticity(1.0 / per_k).map(|c| diagram.place(&c))
     });
-    let mut curve = Curve::new("Planckian locus", points.collect(), Ink::Text);
-    curve.width = 0.75;
-    chart.curves.push(curve);
+    let points: Vec<[f64; 2]> = points.collect();
+    if let Some(hottest) = points.last() {
+        let text = "Planckian locus".to_owned();
+        chart.notes.push(Note { text, at: *hottest, shift_em: [0.0, -1.5], anchor: Anchor::Middle, ink: Ink::OnShade });
+    }
+    chart.curves.push(line("Planckian locus", points, 0.75));
 
     let mut lines = Vec::new();
+    let mut taken: Vec<[f64; 3]> = Vec::new();
     for cct_k in TICKS_K {
-        let Some([upper, lower]) = isotemperature(&planckian, cct_k.min(HOTTEST_K)).map(|ends| ends.map(|c| diagram.place(&c))) else {
-            continue;
-        };
+        let ends = isotemperature(&planckian, cct_k.min(HOTTEST_K)).map(|ends| ends.map(|c| diagram.place(&c)));
+        let Some([upper, lower]) = ends else { continue };
         lines.extend([upper, lower, [f64::NAN; 2]]);
         let text = if cct_k.is_finite() { grouped(cct_k) } else { "∞".to_owned() };
-        let along = unit([lower[0] - upper[0], lower[1] - upper[1]]);
-        let half = [0.27 * text.chars().count() as f64, 0.36];
-        let distance = 0.3 + along[0].abs() * half[0] + along[1].abs() * half[1];
-        let shift_em = [along[0] * distance, along[1] * distance];
-        chart.notes.push(Note { text, at: lower, shift_em, anchor: Anchor::Middle, ink: Ink::Text });
+        let up = unit([upper[0] - lower[0], upper[1] - lower[1]]);
+        let half = [0.29 * text.chars().count() as f64, 0.36];
+        let distance = 0.3 + up[0].abs() * half[0] + up[1].abs() * half[1];
+        let shift_em = up.map(|c| c * distance);
+        let middle = [upper[0] + shift_em[0] * em, upper[1] + shift_em[1] * em];
+        let apart =
+            |other: &[f64; 3]| (middle[0] - other[0]).abs() > (half[0] + other[2] + 0.35) * em || (middle[1] - other[1]).abs() > 0.95 * em;
+        if taken.iter().all(apart) {
+            taken.push([middle[0], middle[1], half[0]]);
+            chart.notes.push(Note { text, at: upper, shift_em, anchor: Anchor::Middle, ink: Ink::OnShade });
+        }
     }
-    chart.curves.push(unnamed(lines, Ink::Text, 0.5));
-    let _ = em;
+    chart.curves.push(line("Equal correlated colour temperature", lines, 0.5));
 
     let daylight = (0..=60).filter_map(|i| {
         let per_k = 1.0 / 4000.0 + (1.0 / 25_000.0 - 1.0 / 4000.0) * f64::from(i) / 60.0;
@@ -55,9 +65,12 @@ pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], 
         let density = Density::daylight((1.0 / per_k).clamp(4000.0, 25_000.0)).ok()?;
         Tristimulus::of(&density, matching).chromaticity().map(|c| diagram.place(&c))
     });
-    let mut curve = Curve::new("Daylight locus", daylight.collect(), Ink::Text).dashed(Dash::Dotted);
-    curve.width = 0.75;
-    chart.curves.push(curve);
+    chart.curves.push(line("Daylight locus", daylight.collect(), 0.75).dashed(Dash::Dotted));
+}
+
+/// A line on the shade.
+fn line(label: &str, points: Vec<[f64; 2]>, width: f64) -> Curve {
+    Curve { width, ..Curve::new(label, points, Ink::OnShade).unwritten() }
 }
 
 /// Ends of a line through the Planckian point, normal to the locus in CIE 1960 u, v: above (towards green) and below it.

@@ -7,7 +7,7 @@
 //! | what is drawn | from |
 //! |---|---|
 //! | spectral locus, ticks outwards along its normal | the observer's functions, exactly, every nm |
-//! | purple line | the ends of the locus, 380 nm and 780 nm |
+//! | purple line | the ends of the drawn locus, 380 nm and 700 nm |
 //! | Planckian locus, short lines of equal correlated temperature | `PlanckianLocus`; the lines are normal to it in CIE 1960 u, v |
 //! | daylight locus | spectra of the D series, 4000 K to 25 000 K |
 //! | white points, spectra | exact integrals |
@@ -23,7 +23,7 @@ mod wavelengths;
 pub use gamut::DisplayGamut;
 
 use super::PlotError;
-use super::chart::{Axis, Chart, Curve, Dash, Ink, Point};
+use super::chart::{Axis, Chart, Ink, Point};
 use super::style::Size;
 use crate::observer::Matching;
 use crate::observer::colour::{Chromaticity, Tristimulus, white_point};
@@ -129,11 +129,12 @@ pub fn chart(contents: &Contents) -> Result<Chart, PlotError> {
         let ticks = (0..).map(|tenth| 0.1 * f64::from(tenth)).take_while(|value| *value < to - 0.005).map(|v| (v, format!("{v:.1}")));
         Axis { ticks: ticks.collect(), ..Axis::linear(&format!("{}{subscript}", diagram.symbols()[i]), "1", from, to) }
     });
-    let title = match diagram {
-        Diagram::Xy => format!("{year} chromaticity diagram"),
-        Diagram::UvPrime => format!("Uniform chromaticity diagram u′, v′ of {year}"),
+    let (title, subtitle) = match diagram {
+        Diagram::Xy => (format!("{year} chromaticity diagram"), format!("{field}; ")),
+        Diagram::UvPrime => ("CIE 1976 uniform chromaticity diagram".to_owned(), format!("{year}, {field}; ")),
     };
-    let mut chart = Chart::new(&title, &format!("{field}; wavelengths in nm, lines of equal correlated colour temperature in K"), x, y);
+    let subtitle = subtitle + "wavelengths in nm, correlated colour temperatures in K; dotted: daylight, 4000 K to 25\u{202f}000 K";
+    let mut chart = Chart::new(&title, &subtitle, x, y);
     chart.equal_scale = true;
     chart.proportion = Some(if diagram == Diagram::Xy { 1.2 } else { 1.06 });
 
@@ -147,7 +148,7 @@ pub fn chart(contents: &Contents) -> Result<Chart, PlotError> {
     for name in &contents.white_points {
         let unseen = || PlotError::Request { what: format!("the observer does not see `{name}`") };
         let white = white_point(name, &functions).map_err(|e| PlotError::Request { what: e.to_string() })?.ok_or_else(unseen)?;
-        chart.points.push(Point { label: name.clone(), at: diagram.place(&white), ink: Ink::Text, radius: 0.75 });
+        chart.points.push(Point { label: name.clone(), at: diagram.place(&white), ink: Ink::OnShade, radius: 0.75 });
     }
     for (index, (label, density)) in contents.spectra.iter().enumerate() {
         let unseen = || PlotError::Request { what: format!("`{label}` has no chromaticity: {} does not see it", observer.title()) };
@@ -155,11 +156,6 @@ pub fn chart(contents: &Contents) -> Result<Chart, PlotError> {
         chart.points.push(Point { label: label.clone(), at: diagram.place(&at), ink: Ink::Palette(index), radius: 1.15 });
     }
     Ok(chart)
-}
-
-/// A thin line without a name.
-fn unnamed(points: Vec<[f64; 2]>, ink: Ink, width: f64) -> Curve {
-    Curve { label: String::new(), points, ink, width, dash: Dash::Solid, under: super::chart::Under::Nothing }
 }
 
 /// About how large the text is in units of the plane: what is left of the picture beside the texts around the frame.

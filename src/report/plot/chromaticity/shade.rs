@@ -13,7 +13,7 @@ use super::Diagram;
 use crate::observer::colour::{Tristimulus, linear_srgb_of};
 
 /// Softness of the edge of the gamut.
-const SOFTNESS: f64 = 0.035;
+const SOFTNESS: f64 = 0.07;
 /// Rows over the height of the diagram.
 const ROWS: usize = 240;
 /// Places in a row at which its colour is computed.
@@ -51,7 +51,9 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
 fn across(outline: &[[f64; 2]], from: f64, to: f64) -> Option<(f64, f64)> {
     let sides = outline.iter().zip(outline.iter().cycle().skip(1));
     let reached = sides.flat_map(|(a, b)| {
-        let at = |y: f64| (a[1] != b[1]).then(|| (y - a[1]) / (b[1] - a[1])).filter(|t| (0.0..=1.0).contains(t)).map(|t| a[0] + t * (b[0] - a[0]));
+        let at = |y: f64| {
+            (a[1] != b[1]).then(|| (y - a[1]) / (b[1] - a[1])).filter(|t| (0.0..=1.0).contains(t)).map(|t| a[0] + t * (b[0] - a[0]))
+        };
         let corner = (from..=to).contains(&a[1]).then_some(a[0]);
         [at(from), at(to), corner]
     });

@@ -1,9 +1,9 @@
 //! Ticks on the spectral locus and the wavelengths beside them: outwards along the normal, as many as there is room for.
 
 use super::super::chart::{Anchor, Chart, Curve, Ink, Note};
-use super::loci::unit;
-use super::{Diagram, unnamed};
-use crate::observer::colour::{LOCUS_RANGE_NM, spectral_locus};
+use super::Diagram;
+use super::loci::{DRAWN_NM, unit};
+use crate::observer::colour::spectral_locus;
 use crate::spectrum::Factor;
 
 /// Lengths of ticks every 10 nm and every 5 nm, in sizes of the text.
@@ -21,20 +21,19 @@ struct Place {
 
 /// Locus, purple line, ticks and wavelengths. `em` is the size of the text in units of the plane.
 pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], outline: Vec<[f64; 2]>, em: f64) {
+    let thin = |label: &str, points, width| Curve { width, ..Curve::new(label, points, Ink::Text).unwritten() };
     if let (Some(first), Some(last)) = (outline.first(), outline.last()) {
-        chart.curves.push(unnamed(vec![*last, *first], Ink::Text, 0.8));
+        chart.curves.push(thin("Purple line", vec![*last, *first], 0.8));
     }
-    let places = places(diagram, matching);
+    let places = places(diagram, matching, em);
     let mut ticks = Vec::new();
     for place in &places {
         let length = TICK_EM[usize::from(place.nm % 10 != 0)] * em;
         let end = [place.at[0] + length * place.outwards[0], place.at[1] + length * place.outwards[1]];
         ticks.extend([place.at, end, [f64::NAN; 2]]);
     }
-    chart.curves.push(unnamed(ticks, Ink::Text, 0.5));
-    let mut locus = Curve::new("Spectral locus", outline, Ink::Text);
-    locus.width = 0.8;
-    chart.curves.push(locus);
+    chart.curves.push(thin("Wavelengths", ticks, 0.5));
+    chart.curves.push(thin("Spectral locus", outline, 0.8));
     for (place, shift_em) in written(&places, diagram, em) {
         // A note's shift is in sizes of its own text.
         let shift_em = shift_em.map(|shift| shift / TEXT);
@@ -42,20 +41,21 @@ pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], 
     }
 }
 
-/// Every 5 nm, where the locus moves on.
-fn places(diagram: Diagram, matching: &[Factor; 3]) -> Vec<Place> {
-    let (from_nm, to_nm) = LOCUS_RANGE_NM;
+/// Every 5 nm where the ticks leave room between them; rounder ones, which come first, displace the others.
+fn places(diagram: Diagram, matching: &[Factor; 3], em: f64) -> Vec<Place> {
+    let (from_nm, to_nm) = (DRAWN_NM.0 as u32, DRAWN_NM.1 as u32);
+    let rank = |nm: u32| [100, 50, 20, 10, 5].iter().position(|step| nm % step == 0);
+    let mut order: Vec<u32> = (from_nm..=to_nm).step_by(5).collect();
+    order.sort_by_key(|nm| (rank(*nm), *nm));
+    let at = |nm: u32| spectral_locus(matching, f64::from(nm), f64::from(nm), 1.0).first().map(|point| diagram.place(&point.chromaticity));
     let mut places: Vec<Place> = Vec::new();
-    let at = |nm: f64| spectral_locus(matching, nm, nm, 1.0).first().map(|point| diagram.place(&point.chromaticity));
-    for nm in (from_nm as u32..=to_nm as u32).step_by(5) {
-        let middle = f64::from(nm);
-        let (Some(here), Some(before), Some(after)) = (at(middle), at((middle - 2.0).max(from_nm)), at((middle + 2.0).min(to_nm))) else {
+    for nm in order {
+        let (Some(here), Some(before), Some(after)) = (at(nm), at(nm.saturating_sub(2).max(from_nm)), at((nm + 2).min(to_nm))) else {
             continue;
         };
         let [dx, dy] = unit([after[0] - before[0], after[1] - before[1]]);
-        // Near its ends the locus hardly moves: ticks there would stand on top of each other.
-        let crowded = places.last().is_some_and(|last| (here[0] - last.at[0]).hypot(here[1] - last.at[1]) < 0.004);
-        if dx.is_finite() && dy.is_finite() && (!crowded || nm % 100 == 0) {
+        let apart = places.iter().all(|other| (here[0] - other.at[0]).hypot(here[1] - other.at[1]) > 0.3 * em);
+        if dx.is_finite() && dy.is_finite() && apart {
             // From blue over green to red the outside is at the left hand.
             places.push(Place { nm, at: here, outwards: [-dy, dx] });
         }
@@ -63,15 +63,12 @@ fn places(diagram: Diagram, matching: &[Factor; 3]) -> Vec<Place> {
     places
 }
 
-/// Which wavelengths are written, rounder ones first, and the shift of the middle of their text in sizes of the text.
+/// Which wavelengths are written, in the order of their ticks, and the shift of the middle of their text in sizes of the text.
 fn written(places: &[Place], diagram: Diagram, em: f64) -> Vec<(&Place, [f64; 2])> {
-    let rank = |nm: u32| [100, 50, 20, 10].iter().position(|step| nm % step == 0);
-    let mut order: Vec<(usize, &Place)> = places.iter().filter_map(|place| Some((rank(place.nm)?, place))).collect();
-    order.sort_by_key(|(rank, place)| (*rank, place.nm));
     let [(left, right), (low, high)] = diagram.ranges();
     let half = HALF_BOX_EM.map(|h| h * em);
     let mut kept: Vec<(&Place, [f64; 2])> = Vec::new();
-    for (_, place) in order {
+    for place in places.iter().filter(|place| place.nm % 10 == 0) {
         let [nx, ny] = place.outwards;
         let distance = TICK_EM[0] + 0.28 + nx.abs() * HALF_BOX_EM[0] + ny.abs() * HALF_BOX_EM[1];
         let shift = [nx * distance, ny * distance];
