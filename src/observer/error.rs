@@ -25,6 +25,17 @@ pub enum ObserverError {
         /// What is allowed, with its unit.
         allowed: String,
     },
+    /// What is asked for would be divided by something that is zero.
+    #[error("{what} is zero: {why}")]
+    Zero {
+        /// What is zero.
+        what: String,
+        /// Why that matters, or what to do.
+        why: String,
+    },
+    /// The name of a white that is none.
+    #[error("the white: {0}")]
+    White(String),
     /// Columns that are not functions of wavelength.
     #[error(transparent)]
     Table(#[from] SpectrumError),

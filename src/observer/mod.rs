@@ -30,6 +30,7 @@ pub mod individual;
 pub mod matching;
 pub mod mesopic;
 mod names;
+pub mod sheet;
 pub mod template;
 
 pub use alpha_opic::AlphaOpic;

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
-//! | `check.rs`, `explain.rs`, `measure.rs`, `plot.rs` | one file a subcommand |
+//! | `check.rs`, `explain.rs`, `measure.rs`, `plot.rs`, `spectrum.rs` | one file a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
@@ -14,6 +14,7 @@ mod explain;
 mod measure;
 #[cfg(feature = "plot")]
 mod plot;
+mod spectrum;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -39,6 +40,8 @@ enum Command {
     /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
     #[cfg(feature = "plot")]
     Plot(plot::Arguments),
+    /// Every quantity of one spectrum.
+    Spectrum(spectrum::Arguments),
 }
 
 /// Why a command ended early; what it has to say is on stderr already or is said here.
@@ -56,6 +59,7 @@ fn main() -> ExitCode {
         Command::Measure(arguments) => measure::run(&arguments),
         #[cfg(feature = "plot")]
         Command::Plot(arguments) => plot::run(&arguments),
+        Command::Spectrum(arguments) => spectrum::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

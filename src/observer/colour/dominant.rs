@@ -44,37 +44,21 @@ pub struct DominantWavelength {
     pub boundary: Chromaticity,
 }
 
-/// Dominant wavelength and purity of a light against a white, for an observer.
-///
-/// `None` where there is no direction: the light is the white, the white lies outside the diagram, or a value is not finite.
+/// Dominant wavelength and purity of one light; see [`SpectralLocus::dominant_wavelength`].
 pub fn dominant_wavelength(light: Chromaticity, white: Chromaticity, matching: &[Factor; 3]) -> Option<DominantWavelength> {
-    let (dx, dy) = (light.x - white.x, light.y - white.y);
-    let locus = Locus::new(matching)?;
-    let forward = locus.crossing(white, dx, dy);
-    let (hue, boundary) = match forward {
-        Some((nm, point)) => (Hue::Spectral(nm), point),
-        None => {
-            let point = locus.purple_crossing(white, dx, dy)?;
-            (Hue::Purple(locus.crossing(white, -dx, -dy)?.0), point)
-        }
-    };
-    let excitation_purity = dx.hypot(dy) / boundary.distance(&white);
-    (excitation_purity.is_finite() && excitation_purity > WHITE).then_some(DominantWavelength {
-        hue,
-        excitation_purity,
-        colorimetric_purity: excitation_purity * boundary.y / light.y,
-        boundary,
-    })
+    SpectralLocus::new(matching).dominant_wavelength(light, white)
 }
 
-/// The tristimulus values of single wavelengths, in rows between which they are linear.
-struct Locus {
+/// The single wavelengths as an observer sees them: tristimulus values in rows between which they are linear.
+#[derive(Debug, Clone)]
+pub struct SpectralLocus {
     wavelengths_nm: Vec<f64>,
     rows: Vec<[f64; 3]>,
 }
 
-impl Locus {
-    fn new(matching: &[Factor; 3]) -> Option<Self> {
+impl SpectralLocus {
+    /// The locus of an observer between the ends of [`LOCUS_RANGE_NM`], as far as the observer sees.
+    pub fn new(matching: &[Factor; 3]) -> Self {
         let (from_nm, to_nm) = LOCUS_RANGE_NM;
         let mut wavelengths_nm: Vec<f64> =
             matching.iter().flat_map(Factor::breakpoints).filter(|nm| (from_nm..=to_nm).contains(nm)).collect();
@@ -82,8 +66,29 @@ impl Locus {
         wavelengths_nm.dedup();
         let row = |nm: f64| matching.each_ref().map(|function| function.at(nm));
         wavelengths_nm.retain(|nm| row(*nm).iter().sum::<f64>() > 0.0);
-        let rows: Vec<[f64; 3]> = wavelengths_nm.iter().map(|nm| row(*nm)).collect();
-        (rows.len() > 1).then_some(Self { wavelengths_nm, rows })
+        let rows = wavelengths_nm.iter().map(|nm| row(*nm)).collect();
+        Self { wavelengths_nm, rows }
+    }
+
+    /// Dominant wavelength and purity of a light against a white.
+    ///
+    /// `None` where there is no direction: the light is the white, the white lies outside the diagram, or a value is not finite.
+    pub fn dominant_wavelength(&self, light: Chromaticity, white: Chromaticity) -> Option<DominantWavelength> {
+        let (dx, dy) = (light.x - white.x, light.y - white.y);
+        let (hue, boundary) = match self.crossing(white, dx, dy) {
+            Some((nm, point)) => (Hue::Spectral(nm), point),
+            None => {
+                let point = self.purple_crossing(white, dx, dy)?;
+                (Hue::Purple(self.crossing(white, -dx, -dy)?.0), point)
+            }
+        };
+        let excitation_purity = dx.hypot(dy) / boundary.distance(&white);
+        (excitation_purity.is_finite() && excitation_purity > WHITE).then_some(DominantWavelength {
+            hue,
+            excitation_purity,
+            colorimetric_purity: excitation_purity * boundary.y / light.y,
+            boundary,
+        })
     }
 
     /// Where the ray from `white` along (dx, dy) meets the spectral locus: wavelength in nm and chromaticity.

@@ -37,7 +37,7 @@ mod temperature;
 mod tristimulus;
 
 pub use chromaticity::Chromaticity;
-pub use dominant::{DominantWavelength, Hue, dominant_wavelength};
+pub use dominant::{DominantWavelength, Hue, SpectralLocus, dominant_wavelength};
 pub use locus::{LOCUS_RANGE_NM, SpectralPoint, spectral_locus, white_point};
 pub use planckian::PlanckianLocus;
 pub use rgb::{Gamut, Srgb, linear_srgb_of, tristimulus_of_linear_srgb, xyz_of_wright_guild};

@@ -26,7 +26,14 @@ const SMALL: f64 = 1e-2;
 pub struct PlanckianLocus {
     nodes: Vec<Node>,
     longest_nm: f64,
+    // Where the search for the nearest point begins: evenly in β, from infinity to [`COLDEST_K`].
+    coarse: Vec<(f64, PlanckianPoint)>,
 }
+
+/// Where the search for the nearest point of the locus ends, K.
+const COLDEST_K: f64 = 500.0;
+/// Points of the first search: neighbours are closer than the locus is curved, so the nearest one has the minimum beside it.
+const COARSE: usize = 80;
 
 #[derive(Debug, Clone, Copy)]
 struct Node {
@@ -73,7 +80,15 @@ impl PlanckianLocus {
     fn of_nodes(mut nodes: Vec<Node>) -> Self {
         nodes.retain(|node| node.weights != [0.0; 3]);
         let longest_nm = nodes.iter().fold(0.0, |longest: f64, node| longest.max(node.wavelength_nm));
-        Self { nodes, longest_nm }
+        let mut locus = Self { nodes, longest_nm, coarse: Vec::new() };
+        let beta = |i: usize| i as f64 / (COARSE as f64 * COLDEST_K);
+        locus.coarse = (0..=COARSE).map(|i| (beta(i), locus.point(beta(i)))).collect();
+        locus
+    }
+
+    /// Points evenly in β, K⁻¹, from an infinite temperature to far below what is searched for.
+    pub(super) fn coarse(&self) -> &[(f64, PlanckianPoint)] {
+        &self.coarse
     }
 
     /// The chromaticity at a temperature in K, infinity included. `None` for a temperature that is not above zero, and for functions that are zero.
@@ -130,8 +145,9 @@ fn bose(xi: f64, least: f64) -> (f64, f64) {
         let slope = -0.5 + xi / 6.0 - xi * square / 180.0 + xi * square * square / 5040.0;
         return (g * least.exp(), slope * least.exp());
     }
-    let g = xi * (least - xi).exp() / -(-xi).exp_m1();
+    let one_less = -(-xi).exp_m1();
+    let g = xi * (least - xi).exp() / one_less;
     // 1 − ξ − g with the g that is not scaled.
-    let bracket = 1.0 - xi - xi * (-xi).exp() / -(-xi).exp_m1();
+    let bracket = 1.0 - xi - xi * (1.0 - one_less) / one_less;
     (g, g / xi * bracket)
 }

@@ -21,10 +21,6 @@ use super::{Chromaticity, PlanckianLocus};
 pub const LEAST_CCT_K: f64 = 1000.0;
 /// The largest distance from the locus at which a correlated colour temperature has a meaning.
 pub const LARGEST_DUV: f64 = 0.05;
-/// The search begins below [`LEAST_CCT_K`], so that points at this very temperature are found.
-const LEAST_SEARCHED_K: f64 = 500.0;
-/// Points of the first search, evenly in 1/T: neighbours are closer than the locus is curved, so the nearest one has the minimum beside it.
-const COARSE: usize = 80;
 /// A black body of exactly [`LEAST_CCT_K`] may be found this much lower, and one of infinite temperature this far beyond the end, by
 /// rounding.
 const ROUNDING: f64 = 1e-9;
@@ -74,28 +70,28 @@ pub fn correlated_temperature(chromaticity: Chromaticity, locus: &PlanckianLocus
     let (u, v) = chromaticity.uv_1960();
     // Along the locus towards larger β, that is colder: positive while the foot of the perpendicular is still ahead.
     let ahead = |point: &PlanckianPoint| (u - point.uv[0]) * point.duv_dbeta[0] + (v - point.uv[1]) * point.duv_dbeta[1];
-    let coldest = 1.0 / LEAST_SEARCHED_K;
-    let beta = |i: usize| coldest * i as f64 / COARSE as f64;
     let distance = |point: &PlanckianPoint| (u - point.uv[0]).hypot(v - point.uv[1]);
-    let points: Vec<PlanckianPoint> = (0..=COARSE).map(|i| locus.point(beta(i))).collect();
-    if !points.iter().all(|point| distance(point).is_finite()) {
+    let points = locus.coarse();
+    if !points.iter().all(|(_, point)| distance(point).is_finite()) {
         return Err(NoTemperature::NotFinite);
     }
-    let nearest = (0..=COARSE).min_by(|&i, &j| distance(&points[i]).total_cmp(&distance(&points[j]))).unwrap_or(0);
-    let slope = ahead(&points[nearest]);
+    let nearest = (0..points.len()).min_by(|&i, &j| distance(&points[i].1).total_cmp(&distance(&points[j].1)));
+    let Some(nearest) = nearest else { return Err(NoTemperature::NotFinite) };
+    let (beta, point) = points[nearest];
+    let slope = ahead(&point);
     let found = if slope == 0.0 {
-        beta(nearest)
+        beta
     } else {
         let other = if slope > 0.0 { nearest + 1 } else { nearest.wrapping_sub(1) };
         match points.get(other) {
             None if slope > 0.0 => return Err(NoTemperature::TooCold),
             // The end of the locus itself, up to rounding.
-            None if slope >= -ROUNDING * points[nearest].duv_dbeta[0].hypot(points[nearest].duv_dbeta[1]) => 0.0,
+            None if slope >= -ROUNDING * point.duv_dbeta[0].hypot(point.duv_dbeta[1]) => 0.0,
             None => return Err(NoTemperature::BeyondInfinity),
-            Some(next) => {
-                let (low, high) = (nearest.min(other), nearest.max(other));
-                let value = |i: usize| if i == nearest { slope } else { ahead(next) };
-                root((beta(low), value(low)), (beta(high), value(high)), |beta| ahead(&locus.point(beta)))
+            Some((next_beta, next)) => {
+                let (here, there) = ((beta, slope), (*next_beta, ahead(next)));
+                let (low, high) = if beta < *next_beta { (here, there) } else { (there, here) };
+                root(low, high, |beta| ahead(&locus.point(beta)))
             }
         }
     };

@@ -7,6 +7,7 @@
 use crate::spectrum::black_body::{ln_spectral_radiance, peak_wavelength_nm};
 
 use super::PlotError;
+use super::axis::superscript;
 use super::chart::{Axis, Chart, Curve, Dash, Ink, Span};
 use super::sample::{every, strip};
 
@@ -60,7 +61,7 @@ pub fn chart(temperatures_k: &[f64], quantity: Quantity) -> Result<Chart, PlotEr
     for (index, t) in temperatures.iter().enumerate() {
         let values = every(low, high, 1.0 / POINTS_A_DECADE).into_iter().map(|log_nm| (10f64.powf(log_nm), log10(10f64.powf(log_nm), *t)));
         let seen = values.filter(|(_, log)| *log >= bottom - 2.0).map(|(nm, log)| [nm, 10f64.powf(log)]);
-        curves.push(Curve::new(&format!("{t} K"), seen.collect(), warm_to_cold(index, temperatures.len())));
+        curves.push(Curve::new(&kelvin(*t), seen.collect(), warm_to_cold(index, temperatures.len())));
     }
     let (name, unit) = match quantity {
         Quantity::Radiance => ("Spectral radiance L_{λ}", "W m⁻² sr⁻¹ nm⁻¹"),
@@ -72,6 +73,19 @@ pub fn chart(temperatures_k: &[f64], quantity: Quantity) -> Result<Chart, PlotEr
     let visible = Span { label: "visible".to_owned(), from: 380.0, to: 780.0 };
     let spans = if x_from < 780.0 && x_to > 380.0 { vec![visible] } else { Vec::new() };
     Ok(Chart { curves, spans, strip: strip(x_from, x_to), ..Chart::new("Black bodies", subtitle, x, y) })
+}
+
+/// `2856 K`; powers of ten where the digits would be many.
+fn kelvin(temperature_k: f64) -> String {
+    if temperature_k < 1e5 {
+        return format!("{temperature_k} K");
+    }
+    let exponent = temperature_k.log10().floor();
+    let digits = format!("{:.3}", temperature_k / 10f64.powf(exponent));
+    match digits.trim_end_matches('0').trim_end_matches('.') {
+        "1" => format!("10{} K", superscript(exponent as i64)),
+        digits => format!("{digits}·10{} K", superscript(exponent as i64)),
+    }
 }
 
 /// Reds for the coldest, blues for the hottest, of the palette.

@@ -12,6 +12,7 @@
 //! | `impulses` | spectral lines: vertical, from the base to their power; `impulse_axis` says what their height means |
 //! | `points` | discs with or without a label |
 //! | `notes` | text at a place |
+//! | `keys` | a short legend of dashes at the top right, where several sets are drawn alike |
 //! | `strip` | a band of colours along the x axis |
 //!
 //! Coordinates are those of the axes. A coordinate that is not finite, or not positive on a logarithmic axis, interrupts a line.
@@ -43,6 +44,8 @@ pub struct Chart {
     pub bands: Vec<Band>,
     /// Lines.
     pub curves: Vec<Curve>,
+    /// What the kinds of lines mean.
+    pub keys: Vec<Key>,
     /// Spectral lines.
     pub impulses: Vec<Impulse>,
     /// Quantity and unit of the impulses' height, on an axis of its own at the right.
@@ -69,6 +72,7 @@ impl Chart {
             areas: Vec::new(),
             bands: Vec::new(),
             curves: Vec::new(),
+            keys: Vec::new(),
             impulses: Vec::new(),
             impulse_axis: None,
             points: Vec::new(),
@@ -162,8 +166,10 @@ pub enum Under {
 /// A line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Its name, written at the curve; empty for none.
+    /// Its name; empty for none.
     pub label: String,
+    /// What is written at the curve in place of its name; empty for nothing.
+    pub written: Option<String>,
     /// (x, y).
     pub points: Vec<[f64; 2]>,
     /// Colour of line and label.
@@ -174,14 +180,17 @@ pub struct Curve {
     pub dash: Dash,
     /// Fill below.
     pub under: Under,
-    /// Whether the name is written in the picture; it stands in the table of numbers in any case.
-    pub written: bool,
 }
 
 impl Curve {
     /// A solid line of ordinary width.
     pub fn new(label: &str, points: Vec<[f64; 2]>, ink: Ink) -> Self {
-        Self { label: label.to_owned(), points, ink, width: 1.0, dash: Dash::Solid, under: Under::Nothing, written: true }
+        Self { label: label.to_owned(), written: None, points, ink, width: 1.0, dash: Dash::Solid, under: Under::Nothing }
+    }
+
+    /// What is written at the curve.
+    pub fn text(&self) -> &str {
+        self.written.as_deref().unwrap_or(&self.label)
     }
 
     /// The same line, thin and muted, as a reference behind the others.
@@ -189,14 +198,9 @@ impl Curve {
         Self { ink: Ink::Muted, width: 0.6, ..self }
     }
 
-    /// Whether a name is to be written in the picture.
-    pub(super) fn is_named(&self) -> bool {
-        self.written && !self.label.is_empty()
-    }
-
     /// The same line, named in the table of numbers only.
     pub fn unwritten(self) -> Self {
-        Self { written: false, ..self }
+        Self { written: Some(String::new()), ..self }
     }
 
     /// The same line, dashed or dotted.
@@ -208,6 +212,17 @@ impl Curve {
     pub fn filled(self, under: Under) -> Self {
         Self { under, ..self }
     }
+}
+
+/// What lines of one kind have in common.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Key {
+    /// What it is.
+    pub text: String,
+    /// Width as a multiple of the style's.
+    pub width: f64,
+    /// Dashes.
+    pub dash: Dash,
 }
 
 /// A filled polygon.

@@ -3,7 +3,7 @@
 use crate::observer::Matching;
 
 use super::PlotError;
-use super::chart::{Axis, Chart, Curve, Dash, Ink};
+use super::chart::{Axis, Chart, Curve, Dash, Ink, Key};
 use super::sample::{of_factor, strip, subscripted};
 
 const FROM_NM: f64 = 380.0;
@@ -34,8 +34,18 @@ pub fn chart(sets: &[Matching]) -> Result<Chart, PlotError> {
     }
     for (set, (dash, width)) in sets.iter().zip(LINES) {
         for ((function, name), ink) in set.functions().iter().zip(set.names()).zip(INKS) {
-            let label = if sets.len() == 1 { subscripted(name) } else { distinct(*set, name) };
-            curves.push(Curve { width, ..Curve::new(&label, of_factor(function, FROM_NM, TO_NM), ink).dashed(dash) });
+            let symbol = subscripted(name);
+            // The first set bears the symbols; the others are told from it by their dashes.
+            let first = curves.len() < INKS.len() + usize::from(real);
+            let written = Some(if !first {
+                String::new()
+            } else if sets.len() == 1 {
+                symbol.clone()
+            } else {
+                bare(name).to_owned()
+            });
+            let label = if sets.len() == 1 { symbol } else { format!("{symbol} {}", year(*set)) };
+            curves.push(Curve { width, written, ..Curve::new(&label, of_factor(function, FROM_NM, TO_NM), ink).dashed(dash) });
         }
     }
     let values = || curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]);
@@ -45,11 +55,24 @@ pub fn chart(sets: &[Matching]) -> Result<Chart, PlotError> {
     let y = Axis::linear(&format!("Colour-matching functions {symbols}"), "1", bottom, 1.08 * largest);
     let x = Axis::linear("Wavelength λ", "nm", FROM_NM, TO_NM);
     let titles: Vec<&str> = sets.iter().map(|set| set.title()).collect();
-    Ok(Chart { curves, strip: strip(FROM_NM, TO_NM), ..Chart::new("Colour-matching functions", &titles.join(" · "), x, y) })
+    let keys = sets.iter().zip(LINES).map(|(set, (dash, width))| Key { text: year(*set), width, dash });
+    let keys = if sets.len() > 1 { keys.collect() } else { Vec::new() };
+    Ok(Chart { curves, keys, strip: strip(FROM_NM, TO_NM), ..Chart::new("Colour-matching functions", &titles.join(" · "), x, y) })
 }
 
-/// Symbol and year, for a plot with several sets.
-fn distinct(set: Matching, name: &str) -> String {
-    let year = set.title().split_whitespace().find(|word| word.len() == 4 && word.chars().all(|c| c.is_ascii_digit())).unwrap_or_default();
-    format!("{} {year}", subscripted(name))
+/// The symbol without what tells sets apart.
+fn bare(symbol: &str) -> &str {
+    let end = symbol.find(|c: char| c == '_' || ('₀'..='₉').contains(&c)).unwrap_or(symbol.len());
+    &symbol[..end]
+}
+
+/// The year of a set, and its field where two sets have the same year.
+fn year(set: Matching) -> String {
+    let title = set.title();
+    let year = title.split_whitespace().find(|word| word.len() == 4 && word.chars().all(|c| c.is_ascii_digit())).unwrap_or(title);
+    match set {
+        Matching::Cie2015TwoDegree => format!("{year}, 2°"),
+        Matching::Cie2015TenDegree => format!("{year}, 10°"),
+        _ => year.to_owned(),
+    }
 }

@@ -3,7 +3,7 @@
 use crate::observer::{Cone, Cones, Individual};
 
 use super::PlotError;
-use super::chart::{Axis, Chart, Curve, Dash, Ink};
+use super::chart::{Axis, Chart, Curve, Dash, Ink, Key};
 use super::sample::{of_factor, on_whole_nm, strip};
 
 /// What is to be drawn.
@@ -49,10 +49,12 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
         for ((cone, ink), points) in Cone::ALL.into_iter().zip(INKS).zip(points) {
             let label =
                 if choice.sets.len() == 1 { cone.name().to_owned() } else { format!("{} {}", cone.name(), distinction(*set, choice)) };
+            // The first set bears the names; the others are told from it by their dashes.
+            let written = Some(if curves.len() < Cone::ALL.len() { cone.name().to_owned() } else { String::new() });
             // A fundamental is zero by definition where it was not measured; a line along the axis would say that it was.
             let end = points.iter().rposition(|point: &[f64; 2]| point[1] > 0.0).map_or(0, |last| last + 1);
             let points = if choice.log { points[..end].to_vec() } else { points };
-            curves.push(Curve { width, ..Curve::new(&label, points, ink).dashed(dash) });
+            curves.push(Curve { width, written, ..Curve::new(&label, points, ink).dashed(dash) });
         }
     }
     let largest = curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]).fold(0.0, f64::max);
@@ -67,7 +69,9 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
     let x = Axis::linear("Wavelength λ", "nm", FROM_NM, TO_NM);
     let titles: Vec<String> = choice.sets.iter().map(|set| set.title()).collect();
     let subtitle = titles.join(" · ");
-    Ok(Chart { curves, strip: strip(FROM_NM, TO_NM), ..Chart::new("Sensitivity of the cones", &subtitle, x, y) })
+    let keys = choice.sets.iter().zip(LINES).map(|(set, (dash, width))| Key { text: distinction(*set, choice), width, dash });
+    let keys = if choice.sets.len() > 1 { keys.collect() } else { Vec::new() };
+    Ok(Chart { curves, keys, strip: strip(FROM_NM, TO_NM), ..Chart::new("Sensitivity of the cones", &subtitle, x, y) })
 }
 
 /// What a set differs in from the others of the plot.
@@ -79,8 +83,9 @@ fn distinction(set: Cones, choice: &Choice) -> String {
     match set {
         Cones::StockmanSharpe2 => "2°".to_owned(),
         Cones::StockmanSharpe10 => "10°".to_owned(),
+        Cones::Individual(Individual { field_deg, .. }) if individuals.len() < choice.sets.len() => format!("{field_deg}°"),
         Cones::Individual(Individual { field_deg, .. }) if same(|one| one.age_yr) => format!("{field_deg}°"),
-        Cones::Individual(Individual { age_yr, .. }) if same(|one| one.field_deg) => format!("{age_yr} yr"),
-        Cones::Individual(Individual { age_yr, field_deg }) => format!("{age_yr} yr, {field_deg}°"),
+        Cones::Individual(Individual { age_yr, .. }) if same(|one| one.field_deg) => format!("{age_yr} years"),
+        Cones::Individual(Individual { age_yr, field_deg }) => format!("{age_yr} years, {field_deg}°"),
     }
 }

@@ -96,7 +96,7 @@ pub(super) fn place(
     for _ in 0..4 {
         for index in &order {
             let free = |area: &Rectangle| {
-                let apart = area.grown(0.3 * em);
+                let apart = area.grown(0.45 * em);
                 placed.iter().enumerate().all(|(other, taken)| other == *index || taken.is_none_or(|taken| !taken.overlaps(&apart)))
             };
             let best = candidates[*index].iter().find(|(_, area)| free(area)).map(|(_, area)| *area);
@@ -118,7 +118,7 @@ fn candidates(request: &Request, all: &Cover, others: &Cover, texts: &[Rectangle
             let from = |place: [f64; 2]| (anchor[0] - place[0]).hypot(anchor[1] - place[1]) / frame.width();
             // Where lines run together a label could be any one's.
             let alone = Rectangle { left: anchor[0], top: anchor[1], right: anchor[0], bottom: anchor[1] }.grown(0.4 * em);
-            let shared = if others.within(&alone) > 0 { 0.8 } else { 0.0 };
+            let shared = if others.within(&alone) > 0 { 2.0 } else { 0.0 };
             let favour = shared + from(peak).min(from(last) + 0.05).min(from(first) + 0.1);
             for (ring, gap) in [0.0, 0.25, 0.55, 0.95].into_iter().enumerate() {
                 let gap = request.clear + gap * em;

@@ -3,7 +3,7 @@
 //! From the top: title, subtitle, name of the y axis, frame, strip, tick labels, name of the x axis. No text is rotated.
 
 use super::axis::{self, Tick};
-use super::chart::{Anchor, Axis, Chart, Scale};
+use super::chart::{Anchor, Axis, Chart, Scale, Under};
 use super::error::PlotError;
 use super::polyline::Rectangle;
 use super::style::Look;
@@ -22,6 +22,8 @@ pub(super) struct Layout {
     pub(super) texts: Vec<Written>,
     /// Name and sample of each curve, if they are not written at the curves.
     pub(super) legend: Vec<LegendRow>,
+    /// Samples of the kinds of lines, each with its left end; their texts are among the others.
+    pub(super) keys: Vec<[f64; 2]>,
 }
 
 /// A row of the legend.
@@ -47,15 +49,24 @@ pub(super) fn texts(chart: &Chart) -> Vec<(String, Weight)> {
             regular.extend(axis::ticks(axis, wanted).into_iter().map(|tick| tick.label));
         }
     }
+    regular.extend(chart.keys.iter().map(|key| key.text.clone()));
     regular.extend(chart.notes.iter().map(|note| note.text.clone()));
     texts.extend(regular.into_iter().map(|text| (text, Weight::Regular)));
-    let labels = chart.curves.iter().map(|c| &c.label).chain(chart.impulses.iter().map(|i| &i.label));
+    let labels = chart.curves.iter().flat_map(|c| [&c.label].into_iter().chain(&c.written)).chain(chart.impulses.iter().map(|i| &i.label));
     let labels = labels.chain(chart.points.iter().map(|p| &p.label)).chain(chart.spans.iter().map(|s| &s.label));
     texts.extend(labels.map(|label| (label.clone(), Weight::Regular)));
     texts
 }
 
 const MOST_TICKS: usize = 12;
+
+/// Length of the sample of a line in a key, in sizes of the text.
+pub(super) const KEY_SAMPLE_EM: f64 = 2.4;
+
+/// Whether the strip is drawn: not where the colours already fill what is below a curve.
+fn has_strip(chart: &Chart) -> bool {
+    !chart.strip.is_empty() && chart.curves.iter().all(|curve| curve.under != Under::Spectral)
+}
 
 /// Size of tick labels and axis names, of that of the text.
 const SMALL: f64 = 0.94;
@@ -92,17 +103,38 @@ pub(super) fn layout(chart: &Chart, look: &Look, ruler: &Ruler, legend: bool) ->
     let named = |axis: &Axis| axis.visible;
     let name_baseline = top + 1.1 * em;
     if named(&chart.y) || chart.impulse_axis.is_some() {
-        top += 1.75 * em;
+        top += 2.05 * em;
+    }
+    // Keys stand at the right, in the line of the name of the y axis if there is room, else in a line of their own.
+    let key_sample_px = KEY_SAMPLE_EM * em;
+    let key_width = |text: &str| key_sample_px + 0.5 * em + ruler.width(text, Weight::Regular, small);
+    let keys_width = chart.keys.iter().map(|key| key_width(&key.text) + 1.4 * em).sum::<f64>() - 1.4 * em;
+    let names = [Some(&chart.y), chart.impulse_axis.as_ref()].into_iter().flatten();
+    let names_width: f64 = names.map(|axis| ruler.width(&axis.name(), Weight::Regular, small) + 2.0 * em).sum();
+    let mut keys_baseline = name_baseline;
+    if !chart.keys.is_empty() && names_width + keys_width > look.width - 2.0 * margin {
+        keys_baseline = name_baseline + 1.5 * em;
+        top += 1.5 * em;
+    }
+    let mut keys = Vec::new();
+    let mut key_left = look.width - margin - keys_width;
+    if key_left < 0.0 {
+        return Err(PlotError::TooSmall { width_px: look.width, height_px: look.height });
+    }
+    for key in &chart.keys {
+        keys.push([key_left, keys_baseline - 0.5 * CAP_EM * small]);
+        page.write(&key.text, key_left + key_sample_px + 0.5 * em, keys_baseline, small, Weight::Regular, Anchor::Start, look.text);
+        key_left += key_width(&key.text) + 1.4 * em;
     }
 
     let mut bottom = look.height - 0.9 * em;
     if named(&chart.x) {
-        let strip = if chart.strip.is_empty() { 0.0 } else { 0.95 * em };
+        let strip = if has_strip(chart) { 0.95 * em } else { 0.0 };
         bottom -= 1.5 * small + 1.45 * small + 0.4 * em + strip;
     }
 
     // The legend at the right if it leaves most of the width, else below.
-    let rows: Vec<usize> = (0..chart.curves.len()).filter(|i| legend && chart.curves[*i].is_named()).collect();
+    let rows: Vec<usize> = (0..chart.curves.len()).filter(|i| legend && !chart.curves[*i].text().is_empty()).collect();
     let sample_px = 1.6 * em;
     let widest = rows.iter().map(|i| ruler.width(&chart.curves[*i].label, Weight::Regular, small)).fold(0.0, f64::max);
     let (cell_width, cell_height) = (widest + sample_px + 1.6 * em, 1.32 * small);
@@ -148,7 +180,7 @@ pub(super) fn layout(chart: &Chart, look: &Look, ruler: &Ruler, legend: bool) ->
 
     let x_ticks = if named(&chart.x) { fitting_x_ticks(&chart.x, &frame, ruler, small, em) } else { Vec::new() };
     let mut below = bottom;
-    let strip = (!chart.strip.is_empty()).then(|| {
+    let strip = has_strip(chart).then(|| {
         below += 0.95 * em;
         Rectangle { left, top: bottom + 0.35 * em, right, bottom: bottom + 0.95 * em }
     });
@@ -196,7 +228,7 @@ pub(super) fn layout(chart: &Chart, look: &Look, ruler: &Ruler, legend: bool) ->
         };
         LegendRow { curve: *curve, sample: [x, y], sample_px, text }
     });
-    Ok(Layout { frame, x_ticks, y_ticks, strip, legend: legend.collect(), texts: page.texts })
+    Ok(Layout { frame, x_ticks, y_ticks, strip, legend: legend.collect(), keys, texts: page.texts })
 }
 
 /// Ticks no closer than `room` px.

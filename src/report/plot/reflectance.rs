@@ -2,7 +2,8 @@
 //!
 //! Colour: CIE 1931 under D65, as sRGB; what the screen cannot show is mixed with grey of the same luminance.
 
-use crate::observer::colour::{Gamut, Srgb, Tristimulus, cie_1931};
+use crate::observer::Matching;
+use crate::observer::colour::{Gamut, Srgb, Tristimulus};
 use crate::spectrum::{Factor, library};
 
 use super::PlotError;
@@ -26,7 +27,7 @@ pub fn chart(title: &str, items: &[Item]) -> Result<Chart, PlotError> {
     if items.is_empty() {
         return Err(PlotError::Nothing { what: "no reflectance was asked for".to_owned() });
     }
-    let (d65, matching) = (library::density("D65")?, cie_1931()?);
+    let (d65, matching) = (library::density("D65")?, Matching::Cie1931.functions());
     let white = Tristimulus::of(&d65, &matching);
     let mut curves = Vec::new();
     for Item { name, factor } in items {

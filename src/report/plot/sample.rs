@@ -66,13 +66,21 @@ pub(super) fn of_density(density: &Density, name: &str, from_nm: f64, to_nm: f64
     }
 }
 
+/// Largest component of a colour that counts as bright.
+const FULL: f64 = 225.0;
+
 /// The colours of wavelengths along an axis in nm; nothing outside the visible.
 pub(super) fn strip(from_nm: f64, to_nm: f64) -> Vec<Stop> {
     let (first, last) = (from_nm.max(380.0), to_nm.min(780.0));
     if first >= last {
         return Vec::new();
     }
-    let stop = |nm: f64, opacity: f64| Stop { x: nm, colour: wavelength_colour::colour(nm), opacity };
+    // A dark colour is a bright one that lets the background through, so that the ends fade on light and dark alike.
+    let stop = |nm: f64, share: f64| {
+        let colour = wavelength_colour::colour(nm).map(f64::from);
+        let opacity = (colour.into_iter().fold(0.0, f64::max) / FULL).min(1.0);
+        Stop { x: nm, colour: colour.map(|part| (part / opacity.max(1e-3)).round().min(255.0) as u8), opacity: share * opacity }
+    };
     let mut stops: Vec<Stop> = every(first, last, 5.0).into_iter().map(|nm| stop(nm, 1.0)).collect();
     if from_nm < first {
         stops.insert(0, stop(first, 0.0));

@@ -88,7 +88,12 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
         let named = items.len() == 1 && lines.len() <= MOST_NAMED_LINES;
         for line in lines {
             let label = if named { format!("{} nm", rounded(line.wavelength_nm)) } else { String::new() };
-            let ink = if items.len() == 1 { wavelength_ink(line.wavelength_nm) } else { Ink::Palette(index) };
+            let ink = match (items.len(), peak > 0.0) {
+                (1, false) => wavelength_ink(line.wavelength_nm),
+                // In front of the same colours only another is seen.
+                (1, true) => Ink::Text,
+                _ => Ink::Palette(index),
+            };
             impulses.push(Impulse { label, x: line.wavelength_nm, height: line.power / one, ink });
         }
     }

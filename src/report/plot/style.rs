@@ -140,6 +140,29 @@ impl Look {
     }
 }
 
+impl Look {
+    /// Whether a colour of its own hardly differs from the background.
+    pub(super) fn is_faint(&self, ink: Ink) -> bool {
+        matches!(ink, Ink::Fixed(colour) if contrast(colour, self.background) < 1.5)
+    }
+
+    /// The ink itself, or that of text where letters in it would be hard to read.
+    pub(super) fn readable(&self, ink: Ink) -> Ink {
+        if matches!(ink, Ink::Fixed(colour) if contrast(colour, self.background) < 3.0) { Ink::Text } else { ink }
+    }
+}
+
+/// Contrast of two sRGB colours, 1 to 21 (WCAG 2.1).
+pub(super) fn contrast(a: [u8; 3], b: [u8; 3]) -> f64 {
+    let linear = |byte: u8| {
+        let value = f64::from(byte) / 255.0;
+        if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    };
+    let luminance = |c: [u8; 3]| 0.2126 * linear(c[0]) + 0.7152 * linear(c[1]) + 0.0722 * linear(c[2]);
+    let (low, high) = (luminance(a).min(luminance(b)), luminance(a).max(luminance(b)));
+    (high + 0.05) / (low + 0.05)
+}
+
 /// `#rrggbb`.
 pub(super) fn hex(colour: [u8; 3]) -> String {
     format!("#{:02X}{:02X}{:02X}", colour[0], colour[1], colour[2])

@@ -2,10 +2,10 @@
 
 use super::axis;
 use super::canvas::{Canvas, Paint, Stroke, gradient};
-use super::chart::{Anchor, Axis, Chart, Dash, Ink, Under};
+use super::chart::{Anchor, Axis, Chart, Curve, Dash, Ink, Under};
 use super::error::PlotError;
 use super::labels::{self, Obstacle, Request};
-use super::layout::{self, Layout};
+use super::layout::{self, KEY_SAMPLE_EM, Layout};
 use super::polyline::{Rectangle, is_inside, pieces, polygon_in, thinned};
 use super::shade;
 use super::style::{Look, Style};
@@ -27,7 +27,7 @@ pub fn svg(chart: &Chart, style: &Style) -> Result<String, PlotError> {
     let look = style.look(chart.proportion);
     let announced = layout::texts(chart);
     let ruler = Ruler::new(announced.iter().map(|(text, weight)| (text.as_str(), *weight)))?;
-    let named = chart.curves.iter().filter(|curve| curve.is_named()).count();
+    let named = chart.curves.iter().filter(|curve| !curve.text().is_empty()).count();
     if named <= MOST_DIRECT_LABELS {
         let layout = layout::layout(chart, &look, &ruler, false)?;
         if let Some(labels) = direct_labels(chart, &look, &ruler, &layout) {
@@ -145,9 +145,9 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
     let size = |text: &str| [ruler.width(text, Weight::Regular, em), (CAP_EM + DESCENT_EM) * em];
     let mut wanted = Vec::new();
     for (own, curve) in chart.curves.iter().enumerate() {
-        if curves && curve.is_named() && !obstacles[own].lines.is_empty() {
-            let request = Request { size: size(&curve.label), lines: obstacles[own].lines.clone(), own, clear: 0.45 * em };
-            wanted.push(Wanted { text: curve.label.clone(), ink: curve.ink, request, needed: true });
+        if curves && !curve.text().is_empty() && !obstacles[own].lines.is_empty() {
+            let request = Request { size: size(curve.text()), lines: obstacles[own].lines.clone(), own, clear: 0.45 * em };
+            wanted.push(Wanted { text: curve.text().to_owned(), ink: look.readable(curve.ink), request, needed: true });
         }
     }
     for (index, impulse) in chart.impulses.iter().enumerate() {
@@ -256,11 +256,15 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &[Written]) -> 
     if let Some(strip) = &layout.strip {
         canvas.rectangle(strip, Paint::Gradient(&strip_name), 1.0)?;
     }
+    for (key, at) in chart.keys.iter().zip(&layout.keys) {
+        let line = vec![*at, [at[0] + KEY_SAMPLE_EM * look.text_px, at[1]]];
+        canvas.lines(&[line], Stroke { colour: look.text, width_px: look.line_px * key.width, dash: key.dash })?;
+    }
     // What is muted stands behind.
     for muted in [true, false] {
         for curve in chart.curves.iter().filter(|curve| (curve.ink == Ink::Muted) == muted) {
-            let stroke = Stroke { colour: look.colour(curve.ink), width_px: look.line_px * curve.width, dash: curve.dash };
-            canvas.lines(&lines_of(chart, frame, &curve.points), stroke)?;
+            let lines = lines_of(chart, frame, &curve.points);
+            stroke(&mut canvas, look, &lines, curve, look.line_px * curve.width)?;
         }
     }
     for impulse in &chart.impulses {
@@ -277,7 +281,7 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &[Written]) -> 
     for row in &layout.legend {
         let curve = &chart.curves[row.curve];
         let line = vec![row.sample, [row.sample[0] + row.sample_px, row.sample[1]]];
-        canvas.lines(&[line], Stroke { colour: look.colour(curve.ink), width_px: 1.2 * look.line_px * curve.width, dash: curve.dash })?;
+        stroke(&mut canvas, look, &[line], curve, 1.2 * look.line_px * curve.width)?;
     }
 
     let (width, height) = &look.stated;
@@ -299,6 +303,14 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &[Written]) -> 
         out += &written.svg();
     }
     Ok(out + "</svg>\n")
+}
+
+/// The lines of a curve; one that hardly differs from the background gets a dark rim.
+fn stroke(canvas: &mut Canvas, look: &Look, lines: &[Vec<[f64; 2]>], curve: &Curve, width_px: f64) -> Result<(), PlotError> {
+    if look.is_faint(curve.ink) {
+        canvas.lines(lines, Stroke { colour: look.muted, width_px: width_px + 1.2 * look.hair_px, dash: Dash::Solid })?;
+    }
+    canvas.lines(lines, Stroke { colour: look.colour(curve.ink), width_px, dash: curve.dash })
 }
 
 /// Axes and curves in words, for those who do not see the picture.

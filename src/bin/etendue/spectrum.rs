@@ -1,0 +1,170 @@
+//! `etendue spectrum SPECTRUM`: every quantity of one spectrum.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use etendue::observer::sheet::{RowUncertainty, Scale, SheetOptions, SpectralQuantity, SpectrumSheet};
+use etendue::report::spectrum::{SpectrumReport, to_csv, to_json, to_text};
+use etendue::scene::{GivenSpectrum, spectrum_from_text};
+use etendue::spectrum::library;
+
+use crate::{Failure, complain, disk, print};
+
+/// Every quantity of one spectrum: radiant, photon, luminous, scotopic, mesopic, α-opic, cones, colour.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// A file (.csv, .txt, .spdx), a name of the library such as D65, or a form such as "BlackBody(3000)" or "Led(peak_nm: 530, fwhm_nm: 30)".
+    #[arg(value_name = "FILE|NAME|FORM")]
+    spectrum: String,
+    /// How to write the quantities.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Write into this file and not to stdout.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Scale the spectrum to this illuminance, lx; a relative spectrum is scaled to 1000 lx by default.
+    #[arg(long, value_name = "LX", value_parser = above_zero, allow_hyphen_values = true)]
+    illuminance: Option<f64>,
+    /// Scale the spectrum to this irradiance, W/m².
+    #[arg(long, value_name = "W_M2", value_parser = above_zero, allow_hyphen_values = true, conflicts_with = "illuminance")]
+    irradiance: Option<f64>,
+    /// Read the numbers as the spectral density of this quantity, in W and per nm; a file that states its unit says so itself.
+    #[arg(long, value_enum, conflicts_with_all = ["illuminance", "irradiance"])]
+    quantity: Option<Quantity>,
+    /// The white from which dominant wavelength and purity are counted: an illuminant of the library.
+    #[arg(long, value_name = "NAME", default_value = "E")]
+    white: String,
+    /// Luminance to which the eye is adapted, cd/m², for mesopic quantities.
+    #[arg(long, value_name = "CD_M2", value_parser = above_zero, allow_hyphen_values = true, default_value = "1")]
+    adaptation: f64,
+    /// Take the uncertainties of the rows of a file as fully correlated; uncorrelated by default.
+    #[arg(long)]
+    correlated: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    /// A page for a person.
+    Text,
+    /// Everything, for programs.
+    Json,
+    /// A row a quantity.
+    Csv,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Quantity {
+    /// W/nm.
+    Flux,
+    /// W/(m² nm), arriving.
+    Irradiance,
+    /// W/(m² nm), leaving.
+    Exitance,
+    /// W/(m² sr nm).
+    Radiance,
+    /// W/(sr nm).
+    Intensity,
+    /// No unit: only the shape counts.
+    Relative,
+}
+
+impl Quantity {
+    fn scale(self) -> Scale {
+        match self {
+            Quantity::Flux => Scale::Absolute(SpectralQuantity::Flux),
+            Quantity::Irradiance => Scale::Absolute(SpectralQuantity::Irradiance),
+            Quantity::Exitance => Scale::Absolute(SpectralQuantity::Exitance),
+            Quantity::Radiance => Scale::Absolute(SpectralQuantity::Radiance),
+            Quantity::Intensity => Scale::Absolute(SpectralQuantity::Intensity),
+            Quantity::Relative => Scale::Relative,
+        }
+    }
+}
+
+fn above_zero(given: &str) -> Result<f64, String> {
+    match given.trim().parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("a number above 0".to_owned()),
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let given = spectrum_from_text(&arguments.spectrum, &disk::Anywhere).map_err(|problems| Failure::Input(problems.to_string()))?;
+    let mut remarks = given.remarks.clone();
+    let entry = if given.file.is_none() { library::entry(&given.name).ok() } else { None };
+    let (wanted, understood) = scale(arguments, &given, entry);
+    remarks.extend(understood);
+    let options = SheetOptions {
+        scale: wanted,
+        white: arguments.white.clone(),
+        adaptation_cd_m2: arguments.adaptation,
+        range_nm: given.file.as_ref().map(|file| file.table.range_nm()).or(entry.map(|entry| entry.range_nm)),
+        uncertainty: given.file.as_ref().and_then(|file| {
+            Some(RowUncertainty {
+                wavelengths_nm: file.table.wavelengths_nm().to_vec(),
+                standard_uncertainty: file.standard_uncertainty.clone()?,
+                correlated: arguments.correlated,
+            })
+        }),
+    };
+    if arguments.correlated && options.uncertainty.is_none() {
+        remarks.push("the spectrum carries no uncertainties, so --correlated changes nothing".to_owned());
+    }
+    let sheet = SpectrumSheet::new(&given.density, &options).map_err(|error| Failure::Input(format!("error: {error}")))?;
+    let name = entry.map_or(given.name, |entry| entry.name.clone());
+    let report = SpectrumReport { spectrum: name, sheet, remarks };
+    let written = match arguments.format {
+        Format::Text => to_text(&report),
+        Format::Json => to_json(&report),
+        Format::Csv => to_csv(&report),
+    };
+    match &arguments.out {
+        None => print(&written)?,
+        Some(target) => save(target, &written)?,
+    }
+    report.all_remarks().for_each(|remark| complain(&format!("remark: {remark}")));
+    Ok(())
+}
+
+/// How the numbers are to be read, and what is to be said about it.
+fn scale(arguments: &Arguments, given: &GivenSpectrum, entry: Option<&library::Entry>) -> (Scale, Option<String>) {
+    match (arguments.illuminance, arguments.irradiance, arguments.quantity) {
+        (Some(lx), _, _) => return (Scale::Illuminance(lx), None),
+        (_, Some(w_m2), _) => return (Scale::Irradiance(w_m2), None),
+        (_, _, Some(quantity)) => return (quantity.scale(), None),
+        _ => {}
+    }
+    let (unit, words) = match (&given.file, entry) {
+        (Some(file), _) => (file.unit.as_deref(), file.quantity.as_deref()),
+        (None, Some(entry)) if entry.is_absolute() => (Some(entry.unit.as_str()), Some(entry.quantity.as_str())),
+        _ => (None, None),
+    };
+    let Some(unit) = unit.filter(|unit| !unit.to_lowercase().contains("relative") && !matches!(unit.trim(), "" | "1")) else {
+        return (Scale::Relative, None);
+    };
+    match SpectralQuantity::of_unit(unit) {
+        Some(SpectralQuantity::Irradiance) if words.is_some_and(|words| words.to_lowercase().contains("exitance")) => {
+            (Scale::Absolute(SpectralQuantity::Exitance), None)
+        }
+        Some(quantity) => (Scale::Absolute(quantity), None),
+        None => {
+            let remark = format!(
+                "the unit `{unit}` is none of W/nm, W/(m² nm), W/(m² sr nm), W/(sr nm), so the spectrum is taken as relative; --quantity says otherwise"
+            );
+            (Scale::Relative, Some(remark))
+        }
+    }
+}
+
+/// Writes beside the target first and then moves: there is never half a file.
+fn save(target: &Path, written: &str) -> Result<(), Failure> {
+    let mut partial = target.as_os_str().to_owned();
+    partial.push(".partial");
+    std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target)).map_err(|e| {
+        let _ = std::fs::remove_file(&partial);
+        Failure::Input(format!(
+            "error: cannot write `{}`: {e}\n  = help: --out takes a file in a folder that can be written",
+            target.display()
+        ))
+    })
+}

@@ -1,0 +1,2 @@
+//! Laws of the sheet.
+use super::*;

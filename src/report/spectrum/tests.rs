@@ -1,0 +1,2 @@
+//! The three forms of a sheet.
+use super::*;
