@@ -271,6 +271,8 @@ pub struct Point {
     pub ink: Ink,
     /// Radius as a multiple of the style's.
     pub radius: f64,
+    /// Whether its name is written beside it, where there is room; it stands in the table of numbers in any case.
+    pub written: bool,
 }
 
 /// Which point of a text stands at its place.

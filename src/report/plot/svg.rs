@@ -161,7 +161,7 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
     }
     for (index, point) in chart.points.iter().enumerate() {
         let own = chart.curves.len() + chart.impulses.len() + index;
-        if !point.label.is_empty() {
+        if point.written && !point.label.is_empty() {
             let clear = radius_px(look, point.radius) + 0.3 * em;
             let request = Request { size: size(&point.label), lines: obstacles[own].lines.clone(), own, clear };
             wanted.push(Wanted { text: point.label.clone(), ink: Ink::Text, request, needed: false });

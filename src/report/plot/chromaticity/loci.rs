@@ -1,6 +1,6 @@
 //! Lines of a chromaticity diagram: spectral locus, purple line, Planckian and daylight locus, lines of equal correlated temperature.
 
-use super::super::chart::{Anchor, Chart, Curve, Dash, Ink, Note};
+use super::super::chart::{Chart, Curve, Dash, Ink};
 use super::Diagram;
 use crate::observer::colour::{Chromaticity, LOCUS_RANGE_NM, PlanckianLocus, Tristimulus, spectral_locus};
 use crate::spectrum::{Density, Factor};
@@ -22,8 +22,8 @@ pub(super) fn spectral(diagram: Diagram, matching: &[Factor; 3]) -> Vec<[f64; 2]
     spectral_locus(matching, DRAWN_NM.0, DRAWN_NM.1, 1.0).iter().map(|point| diagram.place(&point.chromaticity)).collect()
 }
 
-/// Planckian locus with its lines, daylight locus. `em` is the size of the text in units of the plane.
-pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], em: f64) {
+/// Planckian locus with its lines, daylight locus. Returns temperature and upper and lower end of each line.
+pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3]) -> Vec<(String, [[f64; 2]; 2])> {
     let planckian = PlanckianLocus::new(matching);
     // Equal steps of reciprocal temperature are about equal steps along the locus.
     let count = 240;
@@ -32,30 +32,15 @@ pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], 
         planckian.chromaticity(1.0 / per_k).map(|c| diagram.place(&c))
     });
     let points: Vec<[f64; 2]> = points.collect();
-    if let Some(hottest) = points.last() {
-        let text = "Planckian locus".to_owned();
-        chart.notes.push(Note { text, at: *hottest, shift_em: [0.0, -1.5], anchor: Anchor::Middle, ink: Ink::OnShade });
-    }
     chart.curves.push(line("Planckian locus", points, 0.75));
 
     let mut lines = Vec::new();
-    let mut taken: Vec<[f64; 3]> = Vec::new();
+    let mut crossings = Vec::new();
     for cct_k in TICKS_K {
         let ends = isotemperature(&planckian, cct_k.min(HOTTEST_K)).map(|ends| ends.map(|c| diagram.place(&c)));
-        let Some([upper, lower]) = ends else { continue };
-        lines.extend([upper, lower, [f64::NAN; 2]]);
-        let text = if cct_k.is_finite() { grouped(cct_k) } else { "∞".to_owned() };
-        let up = unit([upper[0] - lower[0], upper[1] - lower[1]]);
-        let half = [0.29 * text.chars().count() as f64, 0.36];
-        let distance = 0.3 + up[0].abs() * half[0] + up[1].abs() * half[1];
-        let shift_em = up.map(|c| c * distance);
-        let middle = [upper[0] + shift_em[0] * em, upper[1] + shift_em[1] * em];
-        let apart =
-            |other: &[f64; 3]| (middle[0] - other[0]).abs() > (half[0] + other[2] + 0.35) * em || (middle[1] - other[1]).abs() > 0.95 * em;
-        if taken.iter().all(apart) {
-            taken.push([middle[0], middle[1], half[0]]);
-            chart.notes.push(Note { text, at: upper, shift_em, anchor: Anchor::Middle, ink: Ink::OnShade });
-        }
+        let Some(ends) = ends else { continue };
+        lines.extend([ends[0], ends[1], [f64::NAN; 2]]);
+        crossings.push((if cct_k.is_finite() { grouped(cct_k) } else { "∞".to_owned() }, ends));
     }
     chart.curves.push(line("Equal correlated colour temperature", lines, 0.5));
 
@@ -66,6 +51,7 @@ pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], 
         Tristimulus::of(&density, matching).chromaticity().map(|c| diagram.place(&c))
     });
     chart.curves.push(line("Daylight locus", daylight.collect(), 0.75).dashed(Dash::Dotted));
+    crossings
 }
 
 /// A line on the shade.

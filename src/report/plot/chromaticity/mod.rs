@@ -16,18 +16,20 @@
 //! Both axes have the same scale. The colours inside are for orientation (`shade`).
 
 mod gamut;
+mod labels;
 mod loci;
 mod shade;
 mod wavelengths;
 
 pub use gamut::DisplayGamut;
 
+use self::labels::Names;
 use super::PlotError;
 use super::chart::{Axis, Chart, Ink, Point};
 use super::style::Size;
 use crate::observer::Matching;
 use crate::observer::colour::{Chromaticity, Tristimulus, white_point};
-use crate::spectrum::Density;
+use crate::spectrum::{Density, Factor};
 
 /// Which two coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -142,21 +144,43 @@ pub fn chart(contents: &Contents) -> Result<Chart, PlotError> {
     let outline = loci::spectral(diagram, &functions);
     chart.shade = Some(shade::shade(diagram, outline.clone()));
     gamut::draw(&mut chart, contents)?;
-    loci::draw(&mut chart, diagram, &functions, em);
-    wavelengths::draw(&mut chart, diagram, &functions, outline, em);
+    let crossings = loci::draw(&mut chart, diagram, &functions);
+    wavelengths::draw(&mut chart, diagram, &functions, outline.clone(), em);
+    points(&mut chart, contents, &functions)?;
 
-    for name in &contents.white_points {
-        let unseen = || PlotError::Request { what: format!("the observer does not see `{name}`") };
-        let white = white_point(name, &functions).map_err(|e| PlotError::Request { what: e.to_string() })?.ok_or_else(unseen)?;
-        chart.points.push(Point { label: name.clone(), at: diagram.place(&white), ink: Ink::OnShade, radius: 0.75 });
+    // What matters most is written first.
+    let mut names = Names::new(&chart, &outline, em);
+    for index in (0..chart.points.len()).rev() {
+        let (name, at) = (chart.points[index].label.clone(), chart.points[index].at);
+        // Without room inside, the name is written wherever there is some.
+        chart.points[index].written = !names.beside_point(&mut chart, &name, at);
     }
-    for (index, (label, density)) in contents.spectra.iter().enumerate() {
-        let unseen = || PlotError::Request { what: format!("`{label}` has no chromaticity: {} does not see it", observer.title()) };
-        let at = Tristimulus::of(density, &functions).chromaticity().ok_or_else(unseen)?;
-        chart.points.push(Point { label: label.clone(), at: diagram.place(&at), ink: Ink::Palette(index), radius: 1.15 });
+    for (text, [upper, lower]) in &crossings {
+        let up = loci::unit([upper[0] - lower[0], upper[1] - lower[1]]);
+        let _ = names.at_end(&mut chart, text, *upper, up) || names.at_end(&mut chart, text, *lower, up.map(|c| -c));
     }
     Ok(chart)
 }
+
+/// White points and spectra.
+fn points(chart: &mut Chart, contents: &Contents, functions: &[Factor; 3]) -> Result<(), PlotError> {
+    let (diagram, observer) = (contents.diagram, contents.observer.title());
+    for name in &contents.white_points {
+        let unseen = || PlotError::Request { what: format!("{observer} does not see `{name}`") };
+        let white = white_point(name, functions).map_err(|e| PlotError::Request { what: e.to_string() })?.ok_or_else(unseen)?;
+        let at = diagram.place(&white);
+        chart.points.push(Point { label: name.clone(), at, ink: Ink::OnShade, radius: 0.75, written: false });
+    }
+    for (label, density) in &contents.spectra {
+        let unseen = || PlotError::Request { what: format!("`{label}` has no chromaticity: {observer} does not see it") };
+        let at = diagram.place(&Tristimulus::of(density, functions).chromaticity().ok_or_else(unseen)?);
+        chart.points.push(Point { label: label.clone(), at, ink: Ink::Fixed(SPECTRUM), radius: 1.15, written: false });
+    }
+    Ok(())
+}
+
+/// Colour of the points of spectra, which shows on all colours of the shade.
+const SPECTRUM: [u8; 3] = [24, 26, 32];
 
 /// About how large the text is in units of the plane: what is left of the picture beside the texts around the frame.
 fn em_of_plane(size: Size, diagram: Diagram) -> f64 {
