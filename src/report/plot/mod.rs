@@ -19,6 +19,7 @@
 //! | `svg`, `png`, `table` | the documents |
 //! | `chromaticity` | spectral, Planckian and daylight loci, white points, gamuts |
 //! | `sample` | points of a function, colours along an axis |
+//! | `sensor`, `polar` | responsivity and directional response of sensors |
 //! | `wavelength_colour` | colours of wavelengths, smooth to the eye |
 //! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody` | a plot each |
 //!
@@ -43,9 +44,11 @@ mod labels;
 mod layout;
 pub mod pigments;
 mod png;
+pub mod polar;
 mod polyline;
 pub mod reflectance;
 mod sample;
+pub mod sensor;
 mod shade;
 pub mod spectrum;
 mod style;

@@ -274,7 +274,8 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &[Written]) -> 
     for point in &chart.points {
         let at = place(chart, frame, point.at);
         if frame.grown(1.0).holds(&Rectangle { left: at[0], right: at[0], top: at[1], bottom: at[1] }) {
-            canvas.disc(at, radius_px(look, point.radius) + 0.1 * look.text_px, look.background)?;
+            let rim = if chart.shade.is_some() { [255, 255, 255] } else { look.background };
+            canvas.disc(at, radius_px(look, point.radius) + 0.1 * look.text_px, rim)?;
             canvas.disc(at, radius_px(look, point.radius), look.colour(point.ink))?;
         }
     }

@@ -10,7 +10,7 @@ use super::super::polyline::{is_inside, walked};
 const LETTER_EM: f64 = 0.56;
 const HALF_HEIGHT_EM: f64 = 0.38;
 /// Distances of a name from its point; from the third on a line leads there.
-const RINGS_EM: [f64; 7] = [0.5, 0.75, 1.4, 2.0, 2.8, 3.8, 5.0];
+const RINGS_EM: [f64; 9] = [0.5, 0.75, 1.4, 2.0, 2.8, 3.8, 5.0, 6.5, 8.5];
 const FIRST_LED: usize = 2;
 /// Room around a name.
 const CLEAR_EM: f64 = 0.16;
@@ -78,7 +78,7 @@ impl<'a> Names<'a> {
     fn leads(&self, from: [f64; 2], to: [f64; 2], own: [f64; 2]) -> bool {
         let way = walked(&[from, to], 0.2 * self.em);
         let past = |point: &[f64; 2]| way.iter().all(|w| (w[0] - point[0]).hypot(w[1] - point[1]) > 0.35 * self.em);
-        self.points.iter().filter(|point| **point != own).all(past)
+        self.points.iter().filter(|point| (point[0] - own[0]).hypot(point[1] - own[1]) > 0.5 * self.em).all(past)
             && self.taken.iter().all(|area| way.iter().all(|w| area.distance(*w) > 0.1 * self.em))
     }
 

@@ -23,7 +23,7 @@ pub(super) fn spectral(diagram: Diagram, matching: &[Factor; 3]) -> Vec<[f64; 2]
 }
 
 /// Planckian locus with its lines, daylight locus. Returns temperature and upper and lower end of each line.
-pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3]) -> Vec<(String, [[f64; 2]; 2])> {
+pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3]) -> Crossings {
     let planckian = PlanckianLocus::new(matching);
     // Equal steps of reciprocal temperature are about equal steps along the locus.
     let count = 240;
@@ -53,6 +53,9 @@ pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3]) 
     chart.curves.push(line("Daylight locus", daylight.collect(), 0.75).dashed(Dash::Dotted));
     crossings
 }
+
+/// Temperature and upper and lower end of each line across the Planckian locus.
+pub(super) type Crossings = Vec<(String, [[f64; 2]; 2])>;
 
 /// A line on the shade.
 fn line(label: &str, points: Vec<[f64; 2]>, width: f64) -> Curve {

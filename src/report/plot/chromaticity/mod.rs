@@ -117,9 +117,9 @@ pub fn chart(contents: &Contents) -> Result<Chart, PlotError> {
     let Contents { diagram, observer, .. } = *contents;
     let (year, field, subscript) = match observer {
         Matching::Cie1931 => ("CIE 1931", "2° standard observer", ""),
-        Matching::Cie1964 => ("CIE 1964", "10° standard observer", "₁₀"),
-        Matching::Cie2015TwoDegree => ("CIE 2015", "2° observer from cone fundamentals", " (F, 2°)"),
-        Matching::Cie2015TenDegree => ("CIE 2015", "10° observer from cone fundamentals", " (F, 10°)"),
+        Matching::Cie1964 => ("CIE 1964", "10° standard observer", "_{10}"),
+        Matching::Cie2015TwoDegree => ("CIE 2015", "2° observer from cone fundamentals", "_{F}"),
+        Matching::Cie2015TenDegree => ("CIE 2015", "10° observer from cone fundamentals", "_{F,10}"),
         other => {
             let what = format!("`{}` has no x̄, ȳ, z̄; allowed: CIE 1931, CIE 1964, CIE 2015 2 degree, CIE 2015 10 degree", other.title());
             return Err(PlotError::Request { what });
@@ -158,6 +158,9 @@ pub fn chart(contents: &Contents) -> Result<Chart, PlotError> {
     for (text, [upper, lower]) in &crossings {
         let up = loci::unit([upper[0] - lower[0], upper[1] - lower[1]]);
         let _ = names.at_end(&mut chart, text, *upper, up) || names.at_end(&mut chart, text, *lower, up.map(|c| -c));
+    }
+    if let Some([_, hottest]) = crossings.iter().find(|(text, _)| text == "∞").map(|(_, ends)| ends) {
+        names.beside_point(&mut chart, "Planckian locus", *hottest);
     }
     Ok(chart)
 }
