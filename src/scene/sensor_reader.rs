@@ -37,7 +37,7 @@ pub fn sensor_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Re
     let path = normalised(path);
     let root = root.map_or_else(|| root_of(&path), normalised);
     let mut reading = Reading::new(files, &path, root);
-    let document = reading.first_document(&path);
+    let document = reading.first_document(&path, "sensor file");
     let sensor = document.and_then(|document| read_sensor_body(&Value::root(&document), &path, &mut reading));
     match sensor {
         Some(sensor) if reading.problems.count() == 0 => Ok(sensor),
