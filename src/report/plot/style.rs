@@ -78,6 +78,8 @@ pub(super) struct Look {
     /// Width of a line of the grid.
     pub(super) hair_px: f64,
     pub(super) tint: f64,
+    /// Opacity of an area coloured point by point: so that the grid and, in print, dark lines show on it.
+    pub(super) shade: f64,
 }
 
 impl Style {
@@ -118,6 +120,7 @@ impl Style {
             title_px: 1.3 * text_px,
             line_px: 0.14 * text_px,
             hair_px: 0.07 * text_px,
+            shade: if dark { 0.9 } else { 0.8 },
             tint: if dark { 0.16 } else { 0.10 },
         }
     }
@@ -130,6 +133,7 @@ impl Look {
             Ink::Palette(index) => self.palette[index % self.palette.len()],
             Ink::Text => self.text,
             Ink::Muted => self.muted,
+            Ink::OnShade => [24, 26, 32],
             Ink::Fixed(colour) => colour,
         }
     }
