@@ -1,6 +1,8 @@
 //! `etendue plot KIND`: pictures in SVG and PNG.
 
+mod chromaticity;
 mod output;
+mod sensor;
 
 use std::path::Path;
 
@@ -36,6 +38,10 @@ enum Kind {
     Reflectance(Reflectance),
     /// Black bodies, both axes logarithmic.
     Blackbody(Blackbody),
+    /// Chromaticity diagram: spectral, Planckian and daylight loci, white points, any spectra, gamuts of displays.
+    Chromaticity(chromaticity::Arguments),
+    /// Spectral responsivity and directional response of sensors.
+    Sensor(sensor::Arguments),
 }
 
 #[derive(clap::Args)]
@@ -178,6 +184,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Kind::Spectrum(given) => given.output.draw("spectrum", || given.chart()),
         Kind::Reflectance(given) => given.output.draw("reflectance", || given.chart()),
         Kind::Blackbody(given) => given.output.draw("blackbody", || given.chart()),
+        Kind::Chromaticity(given) => given.output.draw("chromaticity", || given.chart()),
+        Kind::Sensor(given) => given.output.draw("sensor", || given.chart()),
     }
 }
 

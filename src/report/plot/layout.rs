@@ -134,7 +134,7 @@ pub(super) fn layout(chart: &Chart, look: &Look, ruler: &Ruler, legend: bool) ->
     }
 
     // The legend at the right if it leaves most of the width, else below.
-    let rows: Vec<usize> = (0..chart.curves.len()).filter(|i| legend && !chart.curves[*i].label.is_empty()).collect();
+    let rows: Vec<usize> = (0..chart.curves.len()).filter(|i| legend && !chart.curves[*i].text().is_empty()).collect();
     let sample_px = 1.6 * em;
     let widest = rows.iter().map(|i| ruler.width(&chart.curves[*i].label, Weight::Regular, small)).fold(0.0, f64::max);
     let (cell_width, cell_height) = (widest + sample_px + 1.6 * em, 1.32 * small);
