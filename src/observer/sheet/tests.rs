@@ -170,6 +170,8 @@ fn a_common_factor_does_not_reach_ratios_and_a_scaled_quantity_is_exact() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
     #[test]
     fn hat_weights_give_the_exact_integral(values in prop::collection::vec(0.0..10.0_f64, 12), start in 350.0..500.0_f64, step in 0.3..40.0_f64) {
         let wavelengths_nm: Vec<f64> = (0..12).map(|i| start + step * f64::from(i)).collect();
