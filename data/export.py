@@ -36,6 +36,9 @@ def number(value):
     return text[:-2] if text.endswith(".0") else text
 
 
+WRITTEN = set()
+
+
 def write(file_name, package, wavelengths, columns, header):
     """One table: `columns` is a list of (column name, values)."""
     rows = [",".join(["wavelength_nm", *[name for name, _ in columns]])]
@@ -56,6 +59,7 @@ def write(file_name, package, wavelengths, columns, header):
     order = KEYS[:2] + [key for key in header if key not in KEYS] + KEYS[2:]
     lines = [f"# {key}: {header[key]}" for key in order]
     (HERE / file_name).write_text("\n".join(lines) + "\n" + body, newline="\n")
+    WRITTEN.add(HERE / file_name)
 
 
 class Packages:
@@ -111,7 +115,8 @@ def readme():
              "Spectral tables of the library, read by `src/spectrum/library`; `etendue list` shows them by name. Every file has a `#`",
              "header with its pedigree. `export.py` writes the files and checks them (`--check`); this list is generated from the headers.",
              "",
-             "Illuminant A is a formula and illuminant E a constant; neither has a file. Wavelengths are in nm, in air; linear between rows.",
+             "Illuminant A is a formula and illuminant E a constant; neither has a file. Wavelengths are in nm, in air; linear between",
+             "rows.",
              ""]
     for group, title in GROUPS.items():
         members = [table for table in tables if table[1]["group"] == group]
@@ -121,7 +126,8 @@ def readme():
         for path, header, body in members:
             columns = body.split("\n", 1)[0].split(",")[1:]
             shown = "" if len(columns) == 1 else ", ".join(columns)
-            lines.append(f"| {header['name']} | {shown} | {header['range']}, {header['step']} | {header['unit']} | [{path.name}]({path.name}) |")
+            lines.append(f"| {header['name']} | {shown} | {header['range']}, {header['step']} | {header['unit']} "
+                         f"| [{path.name}]({path.name}) |")
         lines += ["", "Sources:", ""]
         lines += [f"* `{path.name}`: {header['source']}" for path, header, _ in members]
         lines.append("")
@@ -135,11 +141,14 @@ def main():
     if sys.argv[1:] != ["--check"]:
         if len(sys.argv) != 2:
             sys.exit(__doc__)
+        # The tables write through this file under its own name, not as the script that runs.
+        import export
         import tables
         packages = Packages(sys.argv[1])
-        for path in HERE.glob("*.csv"):
-            path.unlink()
+        before = set(HERE.glob("*.csv"))
         tables.export(packages)
+        for path in before - export.WRITTEN:
+            path.unlink()
         licences(packages)
         readme()
     sys.exit(1 if check() else 0)

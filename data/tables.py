@@ -22,6 +22,7 @@ def export(packages):
     lamps()
     sun(packages)
     charts()
+    cameras()
 
 
 def efficiencies():
@@ -58,10 +59,14 @@ def efficiencies():
 
 
 def matching_functions():
-    def one(file_name, key, aliases, column_aliases, source, quantity="colour-matching functions"):
+    def one(file_name, key, aliases, column_aliases, source, quantity="colour-matching functions", corrections=()):
         table = colour.MSDS_CMFS[key]
         # The package holds some zeros as differences of a few 1e-20.
         columns = [(name, [0.0 if abs(v) < 1e-15 else v for v in table.values[:, i]]) for i, name in enumerate(table.labels)]
+        for nm, name, slip, meant in corrections:
+            values, row = dict(columns)[name], list(table.wavelengths).index(nm)
+            assert abs(values[row] - slip) < 1e-12, (key, nm, name)
+            values[row] = meant
         header = {"name": key, "aliases": "; ".join(aliases), "column_aliases": column_aliases, "group": "observer", "kind": "factor",
                   "quantity": quantity, "unit": "1", "source": f'{source}; {COLOUR}, colour.MSDS_CMFS["{key}"]'}
         write(file_name, "colour", table.wavelengths, columns, {name: text for name, text in header.items() if text})
@@ -90,7 +95,10 @@ def matching_functions():
     rgb = "colour-matching functions of real primaries"
     one("rgb_wright_guild_5nm.csv", "Wright & Guild 1931 2 Degree RGB CMFs",
         ["Wright & Guild 1931", "Wright & Guild", "CIE 1931 RGB", "RGB 1931"], letters("rgb", "{0}_bar 1931"),
-        "CIE 1931, from Wright and from Guild; primaries 700, 546.1 and 435.8 nm", rgb)
+        "CIE 1931, from Wright and from Guild; primaries 700, 546.1 and 435.8 nm; three slips of digits in the package are corrected "
+        "(r_bar at 500 nm -0.07137 to -0.07173 and at 580 nm 0.24562 to 0.24526, g_bar at 555 nm 0.20588 to 0.20583): so the rows follow "
+        "from x_bar, y_bar, z_bar and the CIE's matrix within 0.00002 as all others do, and the three columns have equal sums", rgb,
+        corrections=((500, "r_bar", -0.07137, -0.07173), (580, "r_bar", 0.24562, 0.24526), (555, "g_bar", 0.20588, 0.20583)))
     one("rgb_stiles_burch_1955_5nm.csv", "Stiles & Burch 1955 2 Degree RGB CMFs",
         ["Stiles & Burch 1955", "Stiles & Burch 2 degree", "RGB 1955"], letters("rgb", "{0}_bar 1955"),
         "Stiles and Burch 1955; primaries 645.16, 526.32 and 444.44 nm", rgb)
@@ -113,8 +121,8 @@ def alpha_opic(packages):
         "group": "observer", "kind": "factor", "quantity": "alpha-opic action spectrum", "unit": "1",
         "column_quantities": "; ".join(f"{what} action spectrum" for what in
                                        ["s-cone-opic", "m-cone-opic", "l-cone-opic", "rhodopic", "melanopic"]),
-        "source": f"CIE S 026/E:2018, five significant digits; {PYSILSUB}, pysilsub/data/CIES026.csv; s-cone-opic is blank there above 615 nm "
-                  "and 0 here"})
+        "source": f"CIE S 026/E:2018, five significant digits; {PYSILSUB}, pysilsub/data/CIES026.csv; s-cone-opic is blank there above "
+                  "615 nm and 0 here"})
 
 
 def components(packages):
@@ -146,7 +154,7 @@ def half_down(value, digits):
 
 
 def d_series_tail(name, nominal_k, last_nm, digits):
-    """The illuminant by the formula of CIE 015 above `last_nm`: M1, M2 to three decimals, means between rows of 10 nm."""
+    """The illuminant by the formula of CIE 015 above `last_nm`: M1, M2 to three decimals."""
     cct = nominal_k * 1.4388 / 1.4380
     if cct <= 7000:
         x = -4.6070e9 / cct ** 3 + 2.9678e6 / cct ** 2 + 0.09911e3 / cct + 0.244063
@@ -164,9 +172,7 @@ def d_series_tail(name, nominal_k, last_nm, digits):
     table = colour.SDS_ILLUMINANTS[name]
     worst = max(abs(at(nm) - value) for nm, value in zip(table.wavelengths, table.values))
     assert worst < 1e-3, (name, worst)
-    tail = {nm: half_down(at(nm), digits) for nm in range(10 * int(last_nm // 10), 831, 10)}
-    return [tail[nm] if nm % 10 == 0 else half_down((tail[nm - 5] + tail[nm + 5]) / 2, digits)
-            for nm in range(int(last_nm) + 5, 831, 5)]
+    return [half_down(at(nm), digits) for nm in range(int(last_nm) + 5, 831, 5)]
 
 
 def daylight():
@@ -180,51 +186,70 @@ def daylight():
     write("daylight_5nm.csv", "colour", wavelengths, columns, RELATIVE | {
         "name": "CIE daylight illuminants", "aliases": "CIE D series", "column_names_are": "entries",
         "column_aliases": "horizon light; mid-morning daylight; D60 daylight; daylight | noon daylight; north sky daylight",
-        "source": f"{CIE_15}; {COLOUR}, colour.SDS_ILLUMINANTS, for D50, D55, D65, D75 up to 780 nm; from 785 nm by the formula of the D series "
-                  "with M1 and M2 to three decimals and means between rows of 10 nm, which is how the illuminants are defined and "
-                  "reproduces the rows below 780 nm within 0.001"})
+        "column_quantities": of_light(f"a phase of daylight, {cct_k} K" for cct_k in (5003, 5503, 6003, 6504, 7504)),
+        "source": f"{CIE_15}; {COLOUR}, colour.SDS_ILLUMINANTS, for D50, D55, D65, D75 up to 780 nm; from 785 nm by the formula of the D "
+                  "series with M1 and M2 to three decimals, which reproduces the rows up to 780 nm within 0.00051 "
+                  "(D65 at 545 nm: 0.00085)"})
     columns = [(name, colour.SDS_ILLUMINANTS[name].values) for name in ("ID50", "ID65")]
     write("indoor_daylight_5nm.csv", "colour", colour.SDS_ILLUMINANTS["ID50"].wavelengths, columns, RELATIVE | {
         "name": "CIE indoor daylight illuminants", "aliases": "CIE ID series", "column_names_are": "entries",
         "column_aliases": "indoor daylight D50; indoor daylight | indoor daylight D65",
+        "column_quantities": of_light(f"{name} behind window glass" for name in ("D50", "D65")),
         "source": f"CIE 184:2009, Indoor daylight illuminants; {COLOUR}, colour.SDS_ILLUMINANTS"})
     for name, alias in (("B", "noon sunlight"), ("C", "average daylight")):
         table = colour.SDS_ILLUMINANTS[name]
         write(f"{name.lower()}_5nm.csv", "colour", table.wavelengths, [("relative", table.values)], RELATIVE | {
-            "name": name, "aliases": f"CIE illuminant {name}; {alias}",
+            "name": name, "aliases": f"{alias}; CIE illuminant {name}",
             "source": f'CIE 1931, withdrawn as a standard; CIE 015; {COLOUR}, colour.SDS_ILLUMINANTS["{name}"]'})
     basis = colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES
     write("d_series_basis_5nm.csv", "colour", basis["S0"].wavelengths, [(key, basis[key].values) for key in ("S0", "S1", "S2")], {
         "name": "D series", "aliases": "daylight basis; CIE D series basis", "group": "component", "kind": "factor",
         "quantity": "basis function of the phases of daylight", "unit": "1/nm (relative)",
-        "column_quantities": "mean of the phases of daylight; first vector of the phases of daylight; second vector of the phases of daylight",
+        "column_quantities": "; ".join(f"{which} of the phases of daylight" for which in ("mean", "first vector", "second vector")),
         "source": f"{CIE_15}; {COLOUR}, colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES"})
 
 
+def of_light(lights):
+    return "; ".join(f"relative spectral distribution of {light}" for light in lights)
+
+
 def lamps():
+    """Correlated colour temperatures as published in CIE 015."""
     def series(file_name, name, alias, lamps, source):
-        tables = [(lamp, colour.SDS_ILLUMINANTS[lamp]) for lamp, _ in lamps]
+        tables = [(lamp, colour.SDS_ILLUMINANTS[lamp]) for lamp, *_ in lamps]
         write(file_name, "colour", tables[0][1].wavelengths, [(lamp, table.values) for lamp, table in tables], RELATIVE | {
-            "name": name, "aliases": alias, "column_names_are": "entries", "column_aliases": "; ".join(names for _, names in lamps),
+            "name": name, "aliases": alias, "column_names_are": "entries",
+            "column_aliases": "; ".join(names for _, names, *_ in lamps),
+            "column_quantities": of_light(f"{what}, {cct_k} K" for *_, what, cct_k in lamps),
             "source": f"{source}; {COLOUR}, colour.SDS_ILLUMINANTS"})
 
-    others = {2: "CWF | cool white fluorescent", 3: "white fluorescent", 4: "warm white fluorescent | WWF", 6: "light white fluorescent",
-              7: "broad-band daylight fluorescent", 8: "D50 simulator", 9: "cool white deluxe fluorescent", 10: "TL85 | Ultralume 50",
-              11: "TL84 | Ultralume 40 | three-band fluorescent", 12: "TL83 | Ultralume 30 | U30"}
-    series("fluorescent_5nm.csv", "CIE fluorescent lamps FL", "CIE FL series",
-           [(f"FL{i}", " | ".join([f"F{i}", *filter(None, [others.get(i)])])) for i in range(1, 13)],
-           f"{CIE_15}, fluorescent lamps")
-    series("fluorescent_3_5nm.csv", "CIE fluorescent lamps FL3", "CIE FL3 series", [(f"FL3.{i}", f"F3.{i}") for i in range(1, 16)],
+    standard, broad, three = "a standard fluorescent lamp", "a broad-band fluorescent lamp", "a three-band fluorescent lamp"
+    series("fluorescent_5nm.csv", "CIE fluorescent lamps FL", "CIE FL series", [
+        ("FL1", "F1", standard, 6430), ("FL2", "F2 | CWF | cool white fluorescent", standard, 4230),
+        ("FL3", "F3 | white fluorescent", standard, 3450), ("FL4", "F4 | WWF | warm white fluorescent", standard, 2940),
+        ("FL5", "F5", standard, 6350), ("FL6", "F6 | light white fluorescent", standard, 4150),
+        ("FL7", "F7 | broad-band daylight fluorescent", broad, 6500), ("FL8", "F8 | D50 simulator", broad, 5000),
+        ("FL9", "F9 | cool white deluxe fluorescent", broad, 4150), ("FL10", "F10 | TL85 | Ultralume 50", three, 5000),
+        ("FL11", "F11 | TL84 | Ultralume 40 | three-band fluorescent", three, 4000),
+        ("FL12", "F12 | TL83 | Ultralume 30 | U30", three, 3000)], f"{CIE_15}, fluorescent lamps")
+    kinds = [standard] * 3 + ["a deluxe fluorescent lamp"] * 3 + [three] * 5 + ["a multi-band fluorescent lamp"] * 3 + ["a D65 simulator"]
+    temperatures = [2932, 3965, 6280, 2904, 4086, 4894, 2979, 4006, 4853, 5000, 5854, 2984, 3896, 5045, 6509]
+    series("fluorescent_3_5nm.csv", "CIE fluorescent lamps FL3", "CIE FL3 series",
+           [(f"FL3.{i}", f"F3.{i}", kind, cct_k) for i, (kind, cct_k) in enumerate(zip(kinds, temperatures), 1)],
            f"{CIE_15}, fluorescent lamps, new set")
-    series("high_pressure_5nm.csv", "CIE high pressure lamps HP", "CIE HP series",
-           [("HP1", "high pressure sodium | HPS | sodium lamp"), ("HP2", "colour enhanced high pressure sodium"),
-            ("HP3", "metal halide 1 | metal halide"), ("HP4", "metal halide 2"), ("HP5", "metal halide 3")],
-           f"{CIE_15}, high pressure discharge lamps")
-    series("led_5nm.csv", "CIE LED lamps", "CIE LED series",
-           [("LED-B1", "warm white LED | LED 2733 K"), ("LED-B2", "LED 2998 K"), ("LED-B3", "white LED | LED 4103 K"),
-            ("LED-B4", "LED 5109 K"), ("LED-B5", "cool white LED | LED 6598 K"), ("LED-BH1", "blue hybrid LED"),
-            ("LED-RGB1", "RGB LED"), ("LED-V1", "violet LED 2724 K"), ("LED-V2", "violet LED 4070 K")],
-           f"{CIE_15}, LED lamps")
+    halide = "a metal halide lamp"
+    series("high_pressure_5nm.csv", "CIE high pressure lamps HP", "CIE HP series", [
+        ("HP1", "high pressure sodium | HPS | sodium lamp", "a standard high pressure sodium lamp", 1959),
+        ("HP2", "colour enhanced high pressure sodium", "a colour enhanced high pressure sodium lamp", 2506),
+        ("HP3", "metal halide | metal halide 1", halide, 3144), ("HP4", "metal halide 2", halide, 4002),
+        ("HP5", "metal halide 3", halide, 4039)], f"{CIE_15}, high pressure discharge lamps")
+    blue, violet = "an LED with blue pump and phosphor", "an LED with violet pump and phosphor"
+    series("led_5nm.csv", "CIE LED lamps", "CIE LED series", [
+        ("LED-B1", "warm white LED", blue, 2733), ("LED-B2", "LED 2998 K", blue, 2998), ("LED-B3", "white LED", blue, 4103),
+        ("LED-B4", "LED 5109 K", blue, 5109), ("LED-B5", "cool white LED", blue, 6598),
+        ("LED-BH1", "blue hybrid LED", "a blue LED with phosphor mixed with a red LED", 2851),
+        ("LED-RGB1", "RGB LED", "a mixture of red, green and blue LEDs", 2840), ("LED-V1", "violet LED 2724 K", violet, 2724),
+        ("LED-V2", "violet LED 4070 K", violet, 4070)], f"{CIE_15}, LED lamps")
 
 
 def sun(packages):
@@ -248,10 +273,10 @@ GREYS = {"white 9.5 (.05 D)": "white", "neutral 8 (.23 D)": "neutral 8", "neutra
 
 def charts():
     for file_name, key, name, aliases, source in (
-            ("colorchecker_babel_10nm.csv", "BabelColor Average", "ColorChecker", "ColorChecker BabelColor Average; BabelColor",
+            ("colorchecker_babel_10nm.csv", "BabelColor Average", "ColorChecker", "BabelColor; ColorChecker BabelColor Average",
              "BabelColor, The ColorChecker pages: average of 30 charts"),
             ("colorchecker_ohta_5nm.csv", "ColorChecker N Ohta", "ColorChecker Ohta",
-             "ColorChecker N Ohta; Ohta; ColorChecker ISO 17321-1; ISO 17321-1",
+             "Ohta; ISO 17321-1; ColorChecker N Ohta; ColorChecker ISO 17321-1",
              "Ohta 1997, The Basis of Color Reproduction Engineering; the same numbers as ISO 17321-1:2012")):
         same = colour.SDS_COLOURCHECKERS["ISO 17321-1"]
         assert key != "ColorChecker N Ohta" or all((same[patch].values == table.values).all()
@@ -261,3 +286,15 @@ def charts():
         write(file_name, "colour", next(iter(chart.values())).wavelengths, columns, {
             "name": name, "aliases": aliases, "group": "reflectance", "kind": "factor", "quantity": "spectral reflectance factor",
             "unit": "1", "outside": "hold", "source": f'{source}; {COLOUR}, colour.SDS_COLOURCHECKERS["{key}"]'})
+
+
+def cameras():
+    for file_name, key, aliases in (("camera_nikon_5100_5nm.csv", "Nikon 5100 (NPL)", "Nikon 5100; Nikon D5100"),
+                                    ("camera_sigma_sdmerill_10nm.csv", "Sigma SDMerill (NPL)", "Sigma SD Merrill; Sigma SDMerill")):
+        table = colour.MSDS_CAMERA_SENSITIVITIES[key]
+        columns = [(name, table.values[:, i]) for i, name in enumerate(table.labels)]
+        write(file_name, "colour", table.wavelengths, columns, {
+            "name": key, "aliases": aliases, "group": "responsivity", "kind": "factor", "quantity": "relative spectral responsivity",
+            "unit": "1 (relative)",
+            "source": "Darrodi, Finlayson, Goodman and Mackiewicz 2015, Reference data set for camera spectral sensitivity estimation; "
+                      f'{COLOUR}, colour.MSDS_CAMERA_SENSITIVITIES["{key}"]'})

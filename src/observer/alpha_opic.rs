@@ -81,11 +81,29 @@ impl AlphaOpic {
     }
 
     /// α-opic irradiance of a spectral irradiance in W m⁻² nm⁻¹: W m⁻². In the same way flux and radiance.
+    ///
+    /// ```
+    /// use etendue::observer::AlphaOpic;
+    /// use etendue::spectrum::Density;
+    ///
+    /// // At the maximum of the melanopic action spectrum all of the irradiance counts.
+    /// assert_eq!(AlphaOpic::Melanopic.irradiance(&Density::line(490.0, 0.3)?), 0.3);
+    /// # Ok::<(), etendue::spectrum::SpectrumError>(())
+    /// ```
     pub fn irradiance(self, density: &Density) -> f64 {
         density.integral(&[&self.curve()])
     }
 
     /// α-opic efficacy of luminous radiation (ELR), W/lm; none for a spectrum without luminous flux.
+    ///
+    /// ```
+    /// use etendue::observer::AlphaOpic;
+    /// use etendue::spectrum::Density;
+    ///
+    /// let lamp = AlphaOpic::Melanopic.efficacy_of_luminous_radiation(&Density::illuminant_a()).ok_or("no light")?;
+    /// assert!(lamp < 0.5 * AlphaOpic::Melanopic.elr_of_d65());
+    /// # Ok::<(), &str>(())
+    /// ```
     pub fn efficacy_of_luminous_radiation(self, density: &Density) -> Option<f64> {
         efficacy_of_luminous_radiation(density, &self.curve())
     }
@@ -113,6 +131,16 @@ impl AlphaOpic {
     }
 
     /// α-opic daylight efficacy ratio (DER), 1 for D65; none for a spectrum without luminous flux.
+    ///
+    /// ```
+    /// use etendue::observer::AlphaOpic;
+    /// use etendue::spectrum::{Density, library};
+    ///
+    /// let der = AlphaOpic::Rhodopic.daylight_efficacy_ratio(&library::density("D65")?);
+    /// assert!(der.is_some_and(|der| (der - 1.0).abs() < 1e-12));
+    /// assert_eq!(AlphaOpic::Rhodopic.daylight_efficacy_ratio(&Density::zero()), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn daylight_efficacy_ratio(self, density: &Density) -> Option<f64> {
         Some(self.efficacy_of_luminous_radiation(density)? / self.elr_of_d65())
     }

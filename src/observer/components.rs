@@ -66,6 +66,16 @@ impl Components {
     }
 
     /// The tables of CIE 170-1, 390 nm to 780 nm, every 5 nm. Errors if the embedded tables could not be read, which the tests exclude.
+    ///
+    /// ```
+    /// use etendue::observer::{Components, Cone};
+    ///
+    /// // What the pigments absorb at low density, without anything in front of them.
+    /// let tables = Components::cie()?;
+    /// assert_eq!(tables.range_nm(), (390.0, 780.0));
+    /// assert!(tables.absorbance(Cone::M, 530.0)? > 0.99);
+    /// # Ok::<(), etendue::observer::ObserverError>(())
+    /// ```
     pub fn cie() -> Result<&'static Self, ObserverError> {
         static CIE: OnceLock<Result<Components, ObserverError>> = OnceLock::new();
         CIE.get_or_init(read_cie).as_ref().map_err(Clone::clone)

@@ -45,7 +45,8 @@ pub enum Cones {
 }
 
 impl Cones {
-    /// The fundamentals L, M, S: energy, 1 at the maximum, zero outside their tables. Errors if age or field are out of range.
+    /// The fundamentals L, M, S: energy, 1 at the maximum (which may lie between the nodes), zero outside their tables. Errors if age
+    /// or field are out of range.
     ///
     /// ```
     /// use etendue::observer::Cones;

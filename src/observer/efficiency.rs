@@ -42,7 +42,7 @@ impl Efficiency {
     pub const ALL: [Self; 6] =
         [Self::Photopic1924, Self::Scotopic1951, Self::JuddVos1978, Self::Physiological2, Self::Physiological10, Self::TenDegree1964];
 
-    /// The function, 1 at its maximum, zero outside its table.
+    /// The function, 1 at its maximum (V_F to 6e-5: its maximum lies between the nodes), zero outside its table.
     pub fn curve(self) -> Factor {
         embedded(self.name())
     }
@@ -74,7 +74,7 @@ impl Efficiency {
             Self::Photopic1924 => &["V(lambda)", "V", "photopic", "CIE 1924"],
             Self::Scotopic1951 => &["V'(lambda)", "V'", "scotopic", "CIE 1951"],
             Self::JuddVos1978 => &["V_M(lambda)", "V_M", "Judd-Vos 1978", "Judd-Vos", "CIE 1988"],
-            Self::Physiological2 => &["V_F(lambda) 2 degree", "V_F", "V_F 2°", "CIE 2015 2 degree"],
+            Self::Physiological2 => &["V_F(lambda) 2 degree", "V_F", "V_F(lambda)", "V_F 2°", "CIE 2015 2 degree"],
             Self::Physiological10 => &["V_F(lambda) 10 degree", "V_F,10", "V_F 10°", "V_F,10(lambda)", "CIE 2015 10 degree"],
             Self::TenDegree1964 => &["V_10(lambda)", "V_10", "CIE 1964"],
         })
@@ -122,6 +122,16 @@ pub fn luminous(density: &Density, efficiency: Efficiency) -> f64 {
 }
 
 /// Luminous efficacy of radiation `K ∫ S V_x dλ / ∫ S dλ`, lm/W; none for a density that is zero.
+///
+/// ```
+/// use etendue::observer::{Efficiency, efficiency::luminous_efficacy_lm_w};
+/// use etendue::spectrum::Density;
+///
+/// let sodium = Density::line(589.0, 2.5)?;
+/// let found = luminous_efficacy_lm_w(&sodium, Efficiency::Photopic1924).ok_or("no light")?;
+/// assert!((found - 683.002 * 0.7691547).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn luminous_efficacy_lm_w(density: &Density, efficiency: Efficiency) -> Option<f64> {
     Some(efficiency.max_efficacy_lm_w() * density.mean_of(&efficiency.curve())?)
 }
@@ -143,6 +153,16 @@ pub fn sp_ratio(density: &Density) -> Option<f64> {
 }
 
 /// As [`sp_ratio`] with another quotient of the maximum efficacies K′_m/K_m, such as 1700/683 or, for CIE 191, 1699/683.
+///
+/// ```
+/// use etendue::observer::efficiency::sp_ratio_with;
+/// use etendue::spectrum::Density;
+///
+/// // V′(555 nm) = 0.402 and V(555 nm) = 1.
+/// let found = sp_ratio_with(&Density::line(555.0, 1.0)?, 1700.0 / 683.0).ok_or("no light")?;
+/// assert!((found - 0.402 * 1700.0 / 683.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn sp_ratio_with(density: &Density, efficacy_ratio: f64) -> Option<f64> {
     let photopic = density.integral(&[&Efficiency::Photopic1924.curve()]);
     (photopic > 0.0).then(|| efficacy_ratio * (density.integral(&[&Efficiency::Scotopic1951.curve()]) / photopic))

@@ -46,6 +46,7 @@ pub(super) fn within(what: &'static str, value: f64, least: f64, most: f64, unit
     if (least..=most).contains(&value) {
         return Ok(value);
     }
-    let space = if unit.is_empty() { "" } else { " " };
+    let space = if matches!(unit, "" | "°") { "" } else { " " };
+    let most = if most < 1e6 { format!("{most}") } else { format!("{most:e}") };
     Err(ObserverError::OutOfRange { what, value, allowed: format!("{least}{space}{unit} to {most}{space}{unit}") })
 }

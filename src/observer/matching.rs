@@ -79,7 +79,12 @@ impl Matching {
     /// # Ok::<(), etendue::observer::ObserverError>(())
     /// ```
     pub fn named(name: &str) -> Result<Self, ObserverError> {
-        find("set of colour matching functions", name, &Self::ALL, |set| match set {
+        find("set of colour matching functions", name, &Self::ALL, Self::aliases)
+    }
+
+    /// All names, the short one first.
+    fn aliases(self) -> &'static [&'static str] {
+        match self {
             Self::Cie1931 => &["CIE 1931", "CIE 1931 2 Degree Standard Observer", "XYZ 1931"],
             Self::Cie1964 => &["CIE 1964", "CIE 1964 10 Degree Standard Observer", "XYZ 1964"],
             Self::Cie2015TwoDegree => &["CIE 2015 2 degree", "CIE 2015 2 Degree Standard Observer"],
@@ -87,7 +92,12 @@ impl Matching {
             Self::WrightGuild1931 => &["Wright & Guild 1931", "Wright & Guild 1931 2 Degree RGB CMFs", "Wright-Guild", "CIE RGB"],
             Self::StilesBurch1955 => &["Stiles & Burch 1955", "Stiles & Burch 1955 2 Degree RGB CMFs"],
             Self::StilesBurch1959 => &["Stiles & Burch 1959", "Stiles & Burch 1959 10 Degree RGB CMFs"],
-        })
+        }
+    }
+
+    /// Short name, such as "CIE 1931".
+    pub fn short_title(self) -> &'static str {
+        self.aliases()[0]
     }
 
     /// The luminous efficiency function that the second function is, and with it the constant k that makes Y a luminous quantity. None
@@ -111,11 +121,11 @@ impl Matching {
     pub fn names(self) -> [&'static str; 3] {
         match self {
             Self::Cie1931 => ["x̄", "ȳ", "z̄"],
-            Self::Cie1964 => ["x̄₁₀", "ȳ₁₀", "z̄₁₀"],
+            Self::Cie1964 => ["x̄_10", "ȳ_10", "z̄_10"],
             Self::Cie2015TwoDegree => ["x̄_F", "ȳ_F", "z̄_F"],
             Self::Cie2015TenDegree => ["x̄_F,10", "ȳ_F,10", "z̄_F,10"],
             Self::WrightGuild1931 | Self::StilesBurch1955 => ["r̄", "ḡ", "b̄"],
-            Self::StilesBurch1959 => ["r̄₁₀", "ḡ₁₀", "b̄₁₀"],
+            Self::StilesBurch1959 => ["r̄_10", "ḡ_10", "b̄_10"],
         }
     }
 
@@ -128,11 +138,11 @@ impl Matching {
     pub fn values(self) -> [&'static str; 3] {
         match self {
             Self::Cie1931 => ["X", "Y", "Z"],
-            Self::Cie1964 => ["X₁₀", "Y₁₀", "Z₁₀"],
+            Self::Cie1964 => ["X_10", "Y_10", "Z_10"],
             Self::Cie2015TwoDegree => ["X_F", "Y_F", "Z_F"],
             Self::Cie2015TenDegree => ["X_F,10", "Y_F,10", "Z_F,10"],
             Self::WrightGuild1931 | Self::StilesBurch1955 => ["R", "G", "B"],
-            Self::StilesBurch1959 => ["R₁₀", "G₁₀", "B₁₀"],
+            Self::StilesBurch1959 => ["R_10", "G_10", "B_10"],
         }
     }
 }

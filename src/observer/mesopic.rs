@@ -50,7 +50,7 @@ pub struct Mesopic {
 /// Mesopic luminance of a field with the photopic luminance `photopic_cd_m2`, in cd/m², and the quotient `sp_ratio` of its scotopic and
 /// photopic luminance, to which the eye is adapted.
 ///
-/// Errors if a value is negative or not finite.
+/// Errors if the luminance is not within 0 to 1e300 cd/m² or the quotient not within 0 to 1e6.
 ///
 /// ```
 /// use etendue::observer::mesopic::mesopic;
@@ -61,7 +61,7 @@ pub struct Mesopic {
 /// # Ok::<(), etendue::observer::ObserverError>(())
 /// ```
 pub fn mesopic(photopic_cd_m2: f64, sp_ratio: f64) -> Result<Mesopic, ObserverError> {
-    let photopic = within("the photopic luminance", photopic_cd_m2, 0.0, f64::MAX, "cd/m²")?;
+    let photopic = within("the photopic luminance", photopic_cd_m2, 0.0, 1e300, "cd/m²")?;
     let ratio = within("the S/P ratio", sp_ratio, 0.0, 1e6, "")?;
     let adaptation = adaptation(photopic, ratio);
     Ok(Mesopic { adaptation, luminance_cd_m2: photopic * relative_luminance(adaptation, ratio) })
@@ -125,6 +125,14 @@ pub fn curve(m: f64) -> Result<Factor, ObserverError> {
 
 /// Maximum luminous efficacy `K_m / V_mes(λ₀)` for the coefficient of adaptation `m`, lm/W: 683.002 for 1, 1699.005 for 0.
 /// Errors if `m` is not within 0 to 1.
+///
+/// ```
+/// use etendue::observer::mesopic::max_efficacy_lm_w;
+///
+/// assert_eq!(max_efficacy_lm_w(1.0)?, 683.002);
+/// assert!((max_efficacy_lm_w(0.0)? - 1699.005).abs() < 1e-3);
+/// # Ok::<(), etendue::observer::ObserverError>(())
+/// ```
 pub fn max_efficacy_lm_w(m: f64) -> Result<f64, ObserverError> {
     let m = within("the coefficient of adaptation", m, 0.0, 1.0, "")?;
     Ok(K_M_LM_W * maximum(m) / (m + (1.0 - m) * V_PRIME_AT_555_NM))

@@ -17,13 +17,14 @@
 //! | `matching` | tristimulus values | x̄ ȳ z̄, r̄ ḡ b̄ | CIE 015 |
 //! | `colour` | the colour of a spectrum: XYZ, xy, CCT, dominant wavelength, sRGB | | CIE 015, IEC 61966-2-1 |
 //! | `alpha_opic` | the five photoreceptors behind non-visual responses | s_α | CIE S 026 |
-//! | `colour` | chromaticity, colour temperature, dominant wavelength, sRGB | x̄ ȳ z̄ | CIE 015 |
+//! | `conversion` | a quantity in another system, through a spectrum | all of them | |
 //! | `sheet` | every quantity of one spectrum | all of them | |
 
 pub mod alpha_opic;
 pub mod colour;
 pub mod components;
 pub mod cones;
+pub mod conversion;
 pub mod efficiency;
 mod error;
 pub mod individual;

@@ -28,7 +28,10 @@ pub(super) fn read_luminous_scale(reads: &Value, system: &System, responsivity: 
     let quantity = reads.name();
     let fields = reads.fields(&format!("`{quantity}`"), &["adjusted_with", "efficacy_lm_w"], &mut reading.problems)?;
     match (fields.get("adjusted_with"), fields.get("efficacy_lm_w")) {
-        (Some(spectrum), None) => read_adjusted_scale(&spectrum, system, responsivity, reading),
+        (Some(spectrum), None) => {
+            let otherwise = "adjust with a spectrum such as \"A\", or give `efficacy_lm_w`";
+            read_adjusted_scale(&spectrum, system, responsivity, otherwise, reading)
+        }
         (None, Some(efficacy)) => efficacy.number_in("the efficacy", "above 0 lm/W", |x| x > 0.0, &mut reading.problems),
         (Some(_), Some(_)) => {
             reads.problem_at(
@@ -58,22 +61,27 @@ pub(super) fn read_optional_adjustment(
     reading: &mut Reading,
 ) -> Option<f64> {
     match fields.get("adjusted_with") {
-        Some(spectrum) => read_adjusted_scale(&spectrum, system, responsivity, reading),
+        Some(spectrum) => {
+            let otherwise = "adjust with a spectrum such as \"D65\", or leave `adjusted_with` out";
+            read_adjusted_scale(&spectrum, system, responsivity, otherwise, reading)
+        }
         None => Some(system.per_watt),
     }
 }
 
-fn read_adjusted_scale(spectrum: &Value, system: &System, responsivity: Option<&Factor>, reading: &mut Reading) -> Option<f64> {
+fn read_adjusted_scale(
+    spectrum: &Value,
+    system: &System,
+    responsivity: Option<&Factor>,
+    otherwise: &str,
+    reading: &mut Reading,
+) -> Option<f64> {
     let density = read_spectrum(spectrum, reading)?;
     let (truth, seen) = (density.integral(&[&system.curve]), density.integral(&[responsivity?]));
     if seen > 0.0 && truth > 0.0 {
         return Some(system.per_watt * (truth / seen));
     }
     let blind = if seen > 0.0 { "the eye" } else { "this responsivity" };
-    spectrum.problem(
-        &mut reading.problems,
-        format!("a meter cannot be adjusted with a spectrum that {blind} does not see"),
-        "adjust with a spectrum such as \"A\", or give `efficacy_lm_w`",
-    );
+    spectrum.problem(&mut reading.problems, format!("a meter cannot be adjusted with a spectrum that {blind} does not see"), otherwise);
     None
 }

@@ -191,7 +191,7 @@ pub(super) fn has_solid_angle(value: &Value, acceptance: Option<&Acceptance>, re
 /// it is a radiance.
 pub(super) fn read_of(of: Option<Value>, acceptance: Option<&Acceptance>, reading: &mut Reading) -> Option<(f64, bool)> {
     let Some(of) = of else { return Some((1.0, false)) };
-    let name = of.variant("what is weighted", &["Irradiance", "Radiance"], &mut reading.problems)?;
+    let name = of.variant("a quantity that can be weighted", &["Irradiance", "Radiance"], &mut reading.problems)?;
     of.without_brackets(&mut reading.problems)?;
     if name == "Irradiance" {
         return Some((1.0, false));

@@ -30,7 +30,7 @@ pub mod instrument;
 mod instrument_reader;
 pub mod mesh_file;
 mod mesh_reader;
-mod nearest;
+pub(crate) mod nearest;
 mod object_reader;
 mod observer_reader;
 mod placement;
@@ -85,6 +85,8 @@ pub struct Scene {
     pub sources: Vec<Source>,
     /// What is read, at least one instrument.
     pub instruments: Vec<Instrument>,
+    /// How curve files were understood: converted units, decimal commas, gaps. No problem, but to be said.
+    pub remarks: Vec<String>,
     /// A hash of every file that the scene was read from; zero for a scene made in memory.
     pub hash: u64,
 }

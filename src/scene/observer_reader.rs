@@ -8,7 +8,7 @@
 //!
 //! | observer | channels | indication per `∫ s(λ) E(λ) dλ` | unit |
 //! |---|---|---|---|
-//! | `"CIE 1931"`, `"CIE 1964"`, `"CIE 2015 2 degree"`, `"CIE 2015 10 degree"` | X, Y, Z | K of the luminous efficiency that ȳ is: 683.002, 683.599, 683.358, 683.144 lm/W | lx for Y, and so for X and Z |
+//! | `"CIE 1931"`, `"CIE 1964"`, `"CIE 2015 2 degree"`, `"CIE 2015 10 degree"` | X, Y, Z; X_10 …; X_F …; X_F,10 … | K of the luminous efficiency that ȳ is: 683.002, 683.599, 683.358, 683.144 lm/W | lx for Y, and so for X and Z |
 //! | `"cones 2 degree"`, `"cones 10 degree"`, `"CIE 170-1"` | L, M, S | 1; the fundamentals are 1 at their maximum | W/m² |
 //! | `"CIE S 026"` | sc, mc, lc, rh, mel | 1 | W/m² |
 //! | `"photopic and scotopic"` | E_v, E′_v | K_m, K′_m | lx |
@@ -68,7 +68,7 @@ pub(super) fn read_observer(value: &Value, acceptance: Option<&Acceptance>, read
     if let Some(cones) = cones {
         let (per_irradiance, is_radiance) = of?;
         let fundamentals = cones.fundamentals().map_err(|error| noted(value, &error, reading)).ok()?;
-        let words = |cone: Cone| quantity(&format!("{}-cone", cone.name()), cone.name(), is_radiance);
+        let words = |cone: Cone| quantity(&format!("{}-cone-weighted", cone.name()), cone.name(), is_radiance);
         let channels = Cone::ALL.into_iter().zip(fundamentals);
         return Some(channels.map(|(cone, curve)| channel(cone.name(), curve, words(cone), per_irradiance)).collect());
     }
@@ -103,12 +103,9 @@ pub(super) fn read_observer(value: &Value, acceptance: Option<&Acceptance>, read
 }
 
 fn read_tristimulus(value: &Value, name: &str, of: Option<(f64, bool)>, reading: &mut Reading) -> Option<Vec<Channel>> {
-    let set = match Matching::named(name) {
-        Ok(set) => set,
-        Err(_) => {
-            value.problem(&mut reading.problems, format!("there is no observer called \"{name}\""), suggestion(name, &NAMES));
-            return None;
-        }
+    let Ok(set) = Matching::named(name) else {
+        value.problem(&mut reading.problems, format!("there is no observer called \"{name}\""), suggestion(name, &NAMES));
+        return None;
     };
     let Some(efficiency) = set.efficiency() else {
         value.problem(
@@ -121,9 +118,9 @@ fn read_tristimulus(value: &Value, name: &str, of: Option<(f64, bool)>, reading:
     let (per_irradiance, is_radiance) = of?;
     let unit = if is_radiance { "cd/m²" } else { "lx" };
     let scale = efficiency.max_efficacy_lm_w() * per_irradiance;
-    let words = |symbol: &str| weighted(&format!("tristimulus value {symbol} ({})", set.title()), symbol, unit);
-    let functions = ["X", "Y", "Z"].into_iter().zip(set.values()).zip(set.functions());
-    Some(functions.map(|((name, symbol), curve)| channel(name, curve, words(symbol), scale)).collect())
+    let words = |symbol: &str| weighted(&format!("tristimulus value {symbol}, {}", set.short_title()), symbol, unit);
+    let functions = set.values().into_iter().zip(set.functions());
+    Some(functions.map(|(symbol, curve)| channel(symbol, curve, words(symbol), scale)).collect())
 }
 
 fn read_individual(value: &Value, fields: Option<&Fields>, reading: &mut Reading) -> Option<Individual> {

@@ -120,6 +120,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
     }
     scene.surfaces = surfaces.list;
     scene.hash = reading.hash;
+    scene.remarks = std::mem::take(&mut reading.remarks);
     checks::run(&scene, &places, &mut reading.problems);
     Some(scene)
 }

@@ -93,22 +93,22 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
         channels.as_ref().and_then(|v| if is_observer(v) { Some(vec![v.clone()]) } else { v.list("channels", &mut reading.problems) });
     let mut list: Vec<Channel> = Vec::new();
     for item in items.iter().flatten() {
-        let channels = if is_observer(item) {
+        let observer = is_observer(item);
+        let channels = if observer {
             read_observer(item, acceptance.as_ref(), reading).unwrap_or_default()
         } else {
             read_channel(item, aperture, acceptance.as_ref(), reading).into_iter().collect()
         };
-        for channel in channels {
-            if list.iter().any(|known| known.name == channel.name) {
-                item.problem_at(
-                    &item.title_span(),
-                    &mut reading.problems,
-                    format!("two channels are called \"{}\"", channel.name),
-                    "give each its own name",
-                );
-            }
-            list.push(channel);
+        let known = channels.iter().find(|channel| list.iter().any(|earlier| earlier.name == channel.name));
+        if let Some(channel) = known {
+            let (span, help) = if observer {
+                (item.name_span(), "give the two a sensor each: the names of an observer's channels are fixed")
+            } else {
+                (item.title_span(), "give each its own name")
+            };
+            item.problem_at(&span, &mut reading.problems, format!("two channels are called \"{}\"", channel.name), help);
         }
+        list.extend(channels);
     }
     if let (Some(channels), Some([])) = (&channels, items.as_deref()) {
         channels.problem(

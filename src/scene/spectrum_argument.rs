@@ -140,6 +140,7 @@ mod tests {
             .with("lamp.csv", "# wavelength_unit: nm\n# per: nm\n400,1\n500,2\n")
             .with("/data/Lamp.CSV", "# wavelength_unit: nm\n# per: nm\n400,1\n500,2\n")
             .with("../my lamp.csv", "400;1,5\n500;2\n")
+            .with("paint.csv", "400,0.5\n500,0.6\n")
             .with("broken.csv", "400,1\n400,x\n")
     }
 
@@ -166,7 +167,7 @@ mod tests {
         ] {
             assert!(spectrum_from_text(text, &files()).is_ok(), "{text}: {}", spectrum_from_text(text, &files()).unwrap_err());
         }
-        for text in ["V", "V(lambda)", "0.5", "Band(from_nm: 400, to_nm: 500)", "Product([\"V\", 0.5])", "lamp.csv"] {
+        for text in ["V", "V(lambda)", "0.5", "Band(from_nm: 400, to_nm: 500)", "Product([\"V\", 0.5])", "paint.csv"] {
             assert!(factor_from_text(text, Outside::Zero, &files()).is_ok(), "{text}");
         }
         assert_eq!(spectrum_from_text("\"A\"", &files()).unwrap().name, "A");

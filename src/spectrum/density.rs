@@ -277,6 +277,11 @@ impl Density {
         self.scale * self.continuum.at(nm)
     }
 
+    /// The density without its lines.
+    pub fn without_lines(&self) -> Self {
+        Self { scale: self.scale, ..Self::assemble(self.continuum.clone(), Vec::new()) }
+    }
+
     /// The continuum without its scale, for the integrals.
     pub(super) fn parts(&self) -> (f64, &Continuum, &[Line]) {
         (self.scale, &self.continuum, &self.lines)

@@ -104,9 +104,9 @@ fn read_csv(bytes: &[u8], meaning: Meaning, rules: &FileRules) -> Result<CurveFi
     let second_is_uncertainty = text.column_names.get(1).is_some_and(|name| is_uncertainty(name));
     let columns = text.columns.len();
     if columns != 1 && !(columns == 2 && second_is_uncertainty) {
-        let help = "a curve has two columns: wavelength in nm, value; a third may be called `standard_uncertainty`";
-        let commas = if columns % 2 == 0 { "" } else { "; if commas here are decimal commas, write points" };
-        return Err(vec![whole(format!("the file has {columns} columns of values"), format!("{help}{commas}"))]);
+        let help = "a curve has two columns: wavelength in nm, value; a third may be called `standard_uncertainty`; if commas here are \
+                    decimal commas, write points";
+        return Err(vec![whole(format!("the file has {columns} columns of values"), help)]);
     }
     let mut uncertainty = if columns == 2 { text.columns.pop() } else { None };
     let mut values = text.columns.pop().unwrap_or_default();

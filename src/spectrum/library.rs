@@ -219,7 +219,7 @@ fn formulas() -> Vec<Entry> {
     };
     let a = entry(
         "A",
-        &["CIE illuminant A", "incandescent", "tungsten"],
+        &["incandescent", "tungsten", "CIE illuminant A"],
         "CIE 015:2018, formula of illuminant A, 300-830 nm",
         super::black_body::ILLUMINANT_A_RANGE_NM,
         Density::illuminant_a(),
@@ -227,7 +227,7 @@ fn formulas() -> Vec<Entry> {
     let equal_energy = Density::flat(360.0, 830.0, 100.0).ok();
     let e = equal_energy.map(|density| {
         let source = "100 from 360 nm to 830 nm, the range of the colour-matching functions";
-        entry("E", &["CIE illuminant E", "equal energy"], source, (360.0, 830.0), density)
+        entry("E", &["equal energy", "CIE illuminant E"], source, (360.0, 830.0), density)
     });
     [a].into_iter().chain(e).collect()
 }

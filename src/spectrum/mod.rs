@@ -19,6 +19,10 @@
 //! | `black_body` | Planck's law |
 //! | `daylight` | the CIE's D series |
 //! | `product_integral` | exact integrals of products |
+//! | `integrals` | many of them at once |
+//! | `table_product` | the same for tables alone, by closed forms |
+//! | `kernel` | weights of a grid: integrals as dot products |
+//! | `resample` | other grids, on request, with the error stated |
 //! | `term` | a density times factors, cut into smooth pieces |
 //! | `quadrature` | few wavelengths and positive weights for path products |
 //! | `peak` | peak wavelength and half width |
@@ -37,16 +41,20 @@ mod error;
 mod factor;
 pub mod file;
 mod gauss_legendre;
+mod integrals;
+pub mod kernel;
 pub mod library;
 mod peak;
 pub mod photometry;
 mod placement;
 mod product_integral;
 pub mod quadrature;
+pub mod resample;
 mod scaled_number;
 pub mod spdx;
 mod support;
 mod table;
+mod table_product;
 mod table_reader;
 mod table_row;
 pub mod table_text;

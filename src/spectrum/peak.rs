@@ -2,7 +2,7 @@
 //!
 //! | quantity | definition |
 //! |---|---|
-//! | peak wavelength λ_p | where the continuum is largest; of lines alone, the strongest |
+//! | peak wavelength λ_p | where the continuum is largest, the shortest such wavelength; of lines alone, the strongest |
 //! | half width Δλ_0.5 | distance between the two wavelengths beside the peak at which the continuum falls to half (CIE S 017, 17-28-035) |
 //!
 //! A continuum and a line have no common scale, so a density of both has the peak of its continuum: what a line is beside it depends on the
@@ -42,7 +42,7 @@ impl Density {
         cuts_nm.dedup();
         let places_nm: Vec<f64> = cuts_nm.windows(2).flat_map(|pair| between(pair[0], pair[1])).chain(cuts_nm.last().copied()).collect();
         let values: Vec<f64> = places_nm.iter().map(|nm| continuum.at(*nm)).collect();
-        let best = (0..values.len()).max_by(|&i, &j| values[i].total_cmp(&values[j]))?;
+        let best = (0..values.len()).rev().max_by(|&i, &j| values[i].total_cmp(&values[j]))?;
         let neighbour = |i: usize| places_nm.get(i).copied().unwrap_or(places_nm[best]);
         let (wavelength_nm, height) = summit(continuum, neighbour(best.wrapping_sub(1)), places_nm[best], neighbour(best + 1));
         if height.is_nan() || height <= 0.0 {

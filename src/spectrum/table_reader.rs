@@ -254,13 +254,17 @@ impl<'t> Reader<'t> {
         if let Some(separator) = comma
             && self.decimal_comma.is_none()
         {
-            if let Commas::Unclear(line, column, message, help) = decide(self.text, separator) {
+            let commas = decide(self.text, separator);
+            self.decimal_comma = Some(commas == Commas::Decimal);
+            if let Commas::Unclear(line, column, message, help) = commas {
                 let here = std::mem::replace(&mut self.line, line);
                 self.problem(column, message, help);
                 self.line = here;
             }
-            // Told once; what else is wrong with the numbers is still found.
-            self.decimal_comma = Some(true);
+        }
+        if comma.is_some() && self.decimal_comma == Some(false) {
+            // Told once for all numbers of the file.
+            return None;
         }
         let pointed = if comma.is_some() { field.text.replacen(',', ".", 1) } else { field.text.to_owned() };
         let value =

@@ -114,9 +114,10 @@ impl Per {
         let words = words(unit);
         let at = words.iter().rposition(|word| WavelengthUnit::parse(word).is_some_and(|unit| unit != WavelengthUnit::Metre))?;
         if let Some(number) = at.checked_sub(1).map(|before| words[before].as_str()).filter(|word| word.parse::<f64>().is_ok()) {
-            let before = unit.rfind(number).map_or("", |position| &unit[..position]);
+            let (before, behind) = unit.rfind(number).map_or(("", ""), |at| (&unit[..at], &unit[at + number.len()..]));
+            let adjacent = behind.trim_start_matches([' ', '_', '-']).to_lowercase().starts_with(&words[at]);
             // The exponent of another unit, as in `W m-2 nm-1`, says nothing; a width says a band; else it is a wavelength, as in `at 550 nm`.
-            if !before.ends_with(|c: char| c.is_alphabetic() || "-^".contains(c)) {
+            if adjacent && !before.ends_with(|c: char| c.is_alphabetic() || "-^".contains(c)) {
                 let divided = before.trim_end_matches([' ', '_', '(']).to_lowercase();
                 return if divided.ends_with('/') || divided.ends_with("per") { Self::band(number, &words[at]) } else { None };
             }

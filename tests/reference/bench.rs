@@ -59,6 +59,11 @@ impl Case {
         matches!(self.0["unit"].as_str().unwrap(), "lx" | "lm" | "cd/m^2")
     }
 
+    /// An input as it is in the file.
+    pub(crate) fn value(&self, input: &str) -> &Value {
+        &self.0["inputs"][input]
+    }
+
     pub(crate) fn text(&self, input: &str) -> &str {
         self.0["inputs"][input].as_str().unwrap_or_else(|| panic!("{} has no text `{input}`", self.id()))
     }

@@ -88,6 +88,22 @@ pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
     read_scene(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))
 }
 
+/// The files of the nearest folder of this name, here or above, as (path, text) in the order of their names; `None` if there is no folder.
+///
+/// What is not a text file of ordinary size is left out.
+pub(crate) fn shelf(name: &str) -> Option<Vec<(String, String)>> {
+    const MOST_BYTES: u64 = 1 << 20;
+    let here = std::env::current_dir().ok()?;
+    let holder = here.ancestors().find(|folder| folder.join(name).is_dir())?;
+    let disk = Disk { root: holder.join(name) };
+    let text_of = |file: String| {
+        let path = holder.join(name).join(&file);
+        let text = String::from_utf8(disk.read(path.to_str()?, MOST_BYTES).ok()?).ok()?;
+        Some((format!("{name}/{file}"), text))
+    };
+    Some(disk.neighbours(holder.join(name).join("any").to_str()?).into_iter().filter_map(text_of).collect())
+}
+
 /// The root of a scene as [`read_scene`] has it: the parent of the innermost folder `scenes` on its way, else its own folder.
 fn root_of(scene: &str) -> PathBuf {
     let mut path = PathBuf::new();

@@ -4,13 +4,15 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
-//! | `check.rs`, `explain.rs`, `measure.rs`, `plot.rs`, `spectrum.rs` | one file a subcommand |
+//! | every other file | a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
 mod check;
 mod disk;
+mod equation;
 mod explain;
+mod list;
 mod measure;
 #[cfg(feature = "plot")]
 mod plot;
@@ -35,6 +37,10 @@ enum Command {
     Check(check::Arguments),
     /// What will be computed, what is left out, and why.
     Explain(explain::Arguments),
+    /// Equations of the lecture: list them, or compute one from its inputs.
+    Equation(equation::Arguments),
+    /// The curves of the library and the sensor files at hand, by name.
+    List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
     /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
@@ -56,6 +62,8 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Equation(arguments) => equation::run(&arguments),
+        Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
         #[cfg(feature = "plot")]
         Command::Plot(arguments) => plot::run(&arguments),

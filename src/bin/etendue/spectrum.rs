@@ -6,7 +6,9 @@ use clap::ValueEnum;
 use etendue::observer::sheet::{RowUncertainty, Scale, SheetOptions, SpectralQuantity, SpectrumSheet};
 use etendue::report::spectrum::{SpectrumReport, to_csv, to_json, to_text};
 use etendue::scene::{GivenSpectrum, spectrum_from_text};
-use etendue::spectrum::library;
+use etendue::spectrum::file::{Meaning, write_csv, write_spdx};
+use etendue::spectrum::resample::{Lines, Rule, resample};
+use etendue::spectrum::{Table, library, spdx};
 
 use crate::{Failure, complain, disk, print};
 
@@ -40,6 +42,20 @@ pub(crate) struct Arguments {
     /// Take the uncertainties of the rows of a file as fully correlated; uncorrelated by default.
     #[arg(long)]
     correlated: bool,
+    /// Put the spectrum on another grid first, nm; what that costs is said.
+    #[arg(long, value_name = "FROM:TO:STEP", value_parser = grid_nm)]
+    resample: Option<[f64; 3]>,
+    /// Write the spectrum itself again and not its quantities; one without rows of its own needs --resample.
+    #[arg(long = "as", value_enum, value_name = "FORMAT", conflicts_with = "format")]
+    rewritten: Option<Rewritten>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Rewritten {
+    /// Wavelengths in nm, values per nm.
+    Csv,
+    /// XML of IES TM-27.
+    Spdx,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -88,12 +104,43 @@ fn above_zero(given: &str) -> Result<f64, String> {
     }
 }
 
+fn grid_nm(given: &str) -> Result<[f64; 3], String> {
+    let numbers: Vec<f64> = given.split(':').map_while(|part| part.trim().parse().ok()).collect();
+    match numbers[..] {
+        [from, to, step] if given.split(':').count() == 3 && from > 0.0 && to > from && step > 0.0 && to.is_finite() => {
+            Ok([from, to, step])
+        }
+        _ => Err("two wavelengths and a step in nm, such as 380:780:5".to_owned()),
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let given = spectrum_from_text(&arguments.spectrum, &disk::Anywhere).map_err(|problems| Failure::Input(problems.to_string()))?;
+    let mut given = spectrum_from_text(&arguments.spectrum, &disk::Anywhere).map_err(|problems| Failure::Input(problems.to_string()))?;
     let mut remarks = given.remarks.clone();
     let entry = if given.file.is_none() { library::entry(&given.name).ok() } else { None };
+    let mut table = given.file.as_ref().map(|file| file.table.clone());
+    if let Some([from_nm, to_nm, step_nm]) = arguments.resample {
+        let lines = if arguments.rewritten.is_some() { Lines::IntoBins } else { Lines::Keep };
+        let found = resample(&given.density, from_nm, to_nm, step_nm, Rule::BinAverages, lines);
+        let found = found.map_err(|error| Failure::Input(format!("error: --resample: {error}")))?;
+        remarks.extend(found.remarks);
+        if let Some(file) = &mut given.file {
+            if file.standard_uncertainty.take().is_some() {
+                remarks.push("the uncertainties of the rows are left out: they do not belong to the rows of the new grid".to_owned());
+            }
+            file.table = found.table.clone();
+        }
+        (given.density, table) = (found.density, Some(found.table));
+    }
     let (wanted, understood) = scale(arguments, &given, entry);
     remarks.extend(understood);
+    if let Some(rewritten) = arguments.rewritten {
+        let help = "the spectrum has no rows of its own; give a grid for them, such as --resample 380:780:5";
+        let table = table.ok_or_else(|| Failure::Input(format!("error: {help}")))?;
+        put(arguments, &rewrite(rewritten, &table, &given, wanted)?)?;
+        remarks.iter().for_each(|remark| complain(&format!("remark: {remark}")));
+        return Ok(());
+    }
     let options = SheetOptions {
         scale: wanted,
         white: arguments.white.clone(),
@@ -118,12 +165,44 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Format::Json => to_json(&report),
         Format::Csv => to_csv(&report),
     };
-    match &arguments.out {
-        None => print(&written)?,
-        Some(target) => save(target, &written)?,
-    }
+    put(arguments, &written)?;
     report.all_remarks().for_each(|remark| complain(&format!("remark: {remark}")));
     Ok(())
+}
+
+/// The text of the spectrum itself.
+fn rewrite(format: Rewritten, table: &Table, given: &GivenSpectrum, wanted: Scale) -> Result<String, Failure> {
+    let (quantity, unit) = match wanted {
+        Scale::Absolute(SpectralQuantity::Flux) => (spdx::SpectralQuantity::Flux, "W/nm"),
+        Scale::Absolute(SpectralQuantity::Irradiance) => (spdx::SpectralQuantity::Irradiance, "W/(m² nm)"),
+        Scale::Absolute(SpectralQuantity::Exitance) => (spdx::SpectralQuantity::Exitance, "W/(m² nm)"),
+        Scale::Absolute(SpectralQuantity::Radiance) => (spdx::SpectralQuantity::Radiance, "W/(m² sr nm)"),
+        Scale::Absolute(SpectralQuantity::Intensity) => (spdx::SpectralQuantity::Intensity, "W/(sr nm)"),
+        _ => (spdx::SpectralQuantity::Relative, "1/nm (relative)"),
+    };
+    if format == Rewritten::Spdx {
+        let header = spdx::SpdxHeader { description: Some(given.name.clone()), ..spdx::SpdxHeader::default() };
+        return Ok(write_spdx(table, quantity, &header));
+    }
+    let mut header = given.file.as_ref().map_or_else(Vec::new, |file| file.header.clone());
+    let mut state = |key: &str, value: &str| {
+        if header.iter().all(|(known, _)| known != key) {
+            header.push((key.to_owned(), value.to_owned()));
+        }
+    };
+    state("name", &given.name);
+    state("quantity", quantity.name());
+    state("unit", unit);
+    let uncertainty = given.file.as_ref().and_then(|file| file.standard_uncertainty.as_deref());
+    write_csv(table, uncertainty, Meaning::Density, &header).map_err(|error| Failure::Run(format!("error: {error}")))
+}
+
+/// To the file that was named, else to stdout.
+fn put(arguments: &Arguments, written: &str) -> Result<(), Failure> {
+    match &arguments.out {
+        None => print(written),
+        Some(target) => save(target, written),
+    }
 }
 
 /// How the numbers are to be read, and what is to be said about it.

@@ -110,6 +110,7 @@ pub fn correlated_temperature(chromaticity: Chromaticity, locus: &PlanckianLocus
 
 /// The root of `f` between two places of different sign, by the Anderson–Björck variant of regula falsi, halving when it stalls.
 fn root(mut low: (f64, f64), mut high: (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
+    let mut last = f64::NAN;
     for step in 0..200 {
         if low.1 == 0.0 {
             return low.0;
@@ -122,6 +123,11 @@ fn root(mut low: (f64, f64), mut high: (f64, f64), f: impl Fn(f64) -> f64) -> f6
         if !(low.0 < middle && middle < high.0) {
             return middle.clamp(low.0, high.0);
         }
+        // Two steps at one place: what is left is rounding.
+        if (middle - last).abs() <= 4.0 * f64::EPSILON * middle {
+            return middle;
+        }
+        last = middle;
         let value = f(middle);
         // Each side keeps its sign; a value of the side that stays is weighted down so that it is not kept for ever.
         if (value > 0.0) == (low.1 > 0.0) {

@@ -5,8 +5,8 @@ use super::totals::row;
 use super::{Definition, Digits, Group, Integrals, SheetRow, SheetValue};
 use crate::observer::Matching;
 use crate::observer::colour::{
-    Chromaticity, CorrelatedTemperature, DominantWavelength, Gamut, Hue, LARGEST_DUV, PlanckianLocus, SpectralLocus, Srgb, Tristimulus,
-    correlated_temperature,
+    Chromaticity, CorrelatedTemperature, DominantWavelength, Gamut, Hue, LARGEST_DUV, NoTemperature, PlanckianLocus, SpectralLocus, Srgb,
+    Tristimulus, correlated_temperature,
 };
 use std::rc::Rc;
 
@@ -79,25 +79,28 @@ fn cell(id: &str, name: &str, observer: Matching) -> SheetRow {
 
 fn temperature() -> Vec<Definition> {
     let locus = Rc::new(PlanckianLocus::new(&Matching::Cie1931.functions()));
-    let of = |take: fn(CorrelatedTemperature) -> f64| {
+    let of = |take: fn(Result<CorrelatedTemperature, NoTemperature>) -> SheetValue| {
         let locus = Rc::clone(&locus);
         move |get: &Integrals<'_>| match chromaticity(get, Matching::Cie1931) {
             None => SheetValue::Undefined(DARK.into()),
-            Some(p) => match correlated_temperature(p, &locus) {
-                Ok(found) => SheetValue::Number(take(found)),
-                Err(why) => SheetValue::Undefined(why.to_string()),
-            },
+            Some(p) => take(correlated_temperature(p, &locus)),
         }
+    };
+    let cct_k = |found: Result<CorrelatedTemperature, NoTemperature>| match found {
+        Ok(found) => SheetValue::Number(found.cct_k),
+        Err(why) => SheetValue::Undefined(why.to_string()),
+    };
+    // The distance keeps its meaning where the temperature has lost it.
+    let distance = |found: Result<CorrelatedTemperature, NoTemperature>| match found {
+        Ok(CorrelatedTemperature { duv, .. }) | Err(NoTemperature::TooFar { duv }) => SheetValue::Number(duv),
+        Err(why) => SheetValue::Undefined(why.to_string()),
     };
     let duv = SheetRow {
         digits: Digits::Decimals(5),
         ..row("duv", Group::Colour, "distance from the Planckian locus, CIE 1960 u, v", "Duv", "1")
     };
     let cct = row("cct", Group::Colour, &format!("correlated colour temperature (|Duv| ≤ {LARGEST_DUV})"), "T_cp", "K");
-    vec![
-        Definition { row: cct, compute: Box::new(of(|found| found.cct_k)) },
-        Definition { row: duv, compute: Box::new(of(|found| found.duv)) },
-    ]
+    vec![Definition { row: cct, compute: Box::new(of(cct_k)) }, Definition { row: duv, compute: Box::new(of(distance)) }]
 }
 
 fn dominant(white: Chromaticity, white_name: &str) -> Vec<Definition> {

@@ -29,7 +29,7 @@ pub(super) fn remark((from_nm, to_nm): (f64, f64), functionals: &Functionals) ->
     let told: Vec<String> = shares
         .iter()
         .filter(|(_, share)| *share > WORTH_A_WORD)
-        .map(|(name, share)| format!("{name} {} %", format_significant(100.0 * share, 2)))
+        .map(|(name, share)| format!("{} % of {name}", format_significant(100.0 * share, 2)))
         .collect();
     (!told.is_empty()).then(|| {
         format!(

@@ -100,7 +100,7 @@ impl Functionals {
 
     /// All integrals, exact.
     pub(super) fn integrals(&self, density: &Density) -> Vec<f64> {
-        self.list.iter().map(|(_, weight)| density.integral(&[weight])).collect()
+        density.integrals(&self.list.iter().map(|(_, weight)| weight).collect::<Vec<_>>())
     }
 
     /// The place of a functional in the lists; beyond them for one that there is not, which every use would show at once.

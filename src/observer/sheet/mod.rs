@@ -48,7 +48,7 @@ use functional::{Functional, Functionals};
 pub enum Scale {
     /// The density is absolute: W nm⁻¹ and so on.
     Absolute(SpectralQuantity),
-    /// Relative; scaled to 1000 lx, or to 1 W m⁻² if nothing of it is visible.
+    /// Relative; scaled to 1000 lx, or to 1 W m⁻² if it has less than 0.001 lm W⁻¹: what is next to invisible is no illuminance.
     Relative,
     /// Scaled to this illuminance, lx.
     Illuminance(f64),
@@ -268,6 +268,9 @@ fn white(name: &str) -> Result<Chromaticity, ObserverError> {
     seen.ok_or_else(|| ObserverError::Zero { what: format!("the white `{name}`"), why: "it is not visible".into() })
 }
 
+/// Least luminous efficacy of radiation of a spectrum that is scaled to an illuminance without being asked, lm/W.
+const LEAST_EFFICACY_LM_W: f64 = 1e-3;
+
 /// What the density is multiplied by, and what its integrals then are.
 #[derive(Debug, Clone)]
 struct Scaling {
@@ -279,6 +282,7 @@ struct Scaling {
 impl Scaling {
     fn new(scale: Scale, get: &Integrals<'_>) -> Result<Self, ObserverError> {
         let visible = get(Functional::PHOTOPIC) > 0.0;
+        let efficacy_lm_w = K_M_LM_W * (get(Functional::PHOTOPIC) / get(Functional::Radiant));
         let above = |what: &'static str, value: f64, unit: &str| {
             let good = value.is_finite() && value > 0.0;
             good.then_some(()).ok_or_else(|| ObserverError::OutOfRange { what, value, allowed: format!("above 0 {unit}") })
@@ -286,9 +290,10 @@ impl Scaling {
         let mut remark = None;
         let (scale, quantity) = match scale {
             Scale::Absolute(quantity) => (scale, quantity),
-            Scale::Relative if visible => (Scale::Illuminance(1000.0), SpectralQuantity::Irradiance),
+            Scale::Relative if efficacy_lm_w >= LEAST_EFFICACY_LM_W => (Scale::Illuminance(1000.0), SpectralQuantity::Irradiance),
             Scale::Relative => {
-                remark = Some("nothing of the spectrum is visible, so it is scaled to 1 W/m² and not to 1000 lx".to_owned());
+                let efficacy = format!("the luminous efficacy is below {LEAST_EFFICACY_LM_W} lm/W");
+                remark = Some(format!("{efficacy}, so the spectrum is scaled to 1 W/m² and not to 1000 lx"));
                 (Scale::Irradiance(1.0), SpectralQuantity::Irradiance)
             }
             Scale::Illuminance(value) => {

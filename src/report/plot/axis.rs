@@ -140,13 +140,6 @@ pub(super) fn superscript(number: i64) -> String {
     number.to_string().chars().map(raised).collect()
 }
 
-/// A range of round numbers that holds `from` and `to`.
-pub(super) fn rounded_range(from: f64, to: f64) -> (f64, f64) {
-    let ticks = linear(from, to, 5);
-    let step = ticks.windows(2).next().map_or(to - from, |pair| pair[1].value - pair[0].value);
-    ((from / step + 1e-9).floor() * step, (to / step - 1e-9).ceil() * step)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -178,8 +171,6 @@ mod tests {
             prop_assert!(ticks.iter().all(|t| t.value >= from - slack && t.value <= to + slack));
             prop_assert!(ticks.windows(2).all(|pair| pair[0].value < pair[1].value));
             prop_assert!(ticks.len() <= wanted + 1);
-            let (low, high) = rounded_range(from, to);
-            prop_assert!(low <= from + slack && high >= to - slack);
         }
     }
 }

@@ -66,8 +66,8 @@ pub(super) fn of_density(density: &Density, name: &str, from_nm: f64, to_nm: f64
     }
 }
 
-/// Largest component of a colour that counts as bright.
-const FULL: f64 = 225.0;
+/// Between these wavelengths the colours stand as they are; beyond them they fade.
+const BRIGHT_NM: (f64, f64) = (430.0, 640.0);
 
 /// The colours of wavelengths along an axis in nm; nothing outside the visible.
 pub(super) fn strip(from_nm: f64, to_nm: f64) -> Vec<Stop> {
@@ -75,11 +75,12 @@ pub(super) fn strip(from_nm: f64, to_nm: f64) -> Vec<Stop> {
     if first >= last {
         return Vec::new();
     }
-    // A dark colour is a bright one that lets the background through, so that the ends fade on light and dark alike.
+    // Towards its ends a dark colour is a bright one that lets the background through, so that they fade on light and dark alike.
+    let brightest = |nm: f64| wavelength_colour::colour(nm).into_iter().max().map_or(1.0, f64::from).max(1.0);
     let stop = |nm: f64, share: f64| {
-        let colour = wavelength_colour::colour(nm).map(f64::from);
-        let opacity = (colour.into_iter().fold(0.0, f64::max) / FULL).min(1.0);
-        Stop { x: nm, colour: colour.map(|part| (part / opacity.max(1e-3)).round().min(255.0) as u8), opacity: share * opacity }
+        let opacity = (brightest(nm) / brightest(nm.clamp(BRIGHT_NM.0, BRIGHT_NM.1))).min(1.0);
+        let colour = wavelength_colour::colour(nm).map(|part| (f64::from(part) / opacity).round().min(255.0) as u8);
+        Stop { x: nm, colour, opacity: share * opacity }
     };
     let mut stops: Vec<Stop> = every(first, last, 5.0).into_iter().map(|nm| stop(nm, 1.0)).collect();
     if from_nm < first {

@@ -4,11 +4,11 @@ use super::axis;
 use super::canvas::{Canvas, Paint, Stroke, gradient};
 use super::chart::{Anchor, Axis, Chart, Curve, Dash, Ink, Under};
 use super::error::PlotError;
-use super::labels::{self, Obstacle, Request};
+use super::labels::{self, Obstacle, Placed, Request};
 use super::layout::{self, KEY_SAMPLE_EM, Layout};
 use super::polyline::{Rectangle, is_inside, pieces, polygon_in, thinned};
 use super::shade;
-use super::style::{Look, Style};
+use super::style::{Look, Size, Style};
 use super::text::{CAP_EM, DESCENT_EM, FAMILY, Ruler, Weight, Written, escaped, number, plain};
 
 /// Most curves that are named at the curve itself; more get a legend.
@@ -24,7 +24,7 @@ pub fn svg(chart: &Chart, style: &Style) -> Result<String, PlotError> {
             return Err(PlotError::Range { axis: axis.name(), from: axis.from, to: axis.to });
         }
     }
-    let look = style.look(chart.proportion);
+    let mut look = style.look(chart.proportion);
     let announced = layout::texts(chart);
     let ruler = Ruler::new(announced.iter().map(|(text, weight)| (text.as_str(), *weight)))?;
     let named = chart.curves.iter().filter(|curve| !curve.text().is_empty()).count();
@@ -34,7 +34,16 @@ pub fn svg(chart: &Chart, style: &Style) -> Result<String, PlotError> {
             return document(chart, &look, &layout, &labels);
         }
     }
-    let layout = layout::layout(chart, &look, &ruler, true)?;
+    let mut layout = layout::layout(chart, &look, &ruler, true);
+    // On a page only the width is given: a legend below the plot makes the picture taller.
+    for _ in 0..8 {
+        if layout.is_ok() || !matches!(style.size, Size::Paper | Size::Column) {
+            break;
+        }
+        look = style.look(Some(1.2 * look.height / look.width));
+        layout = layout::layout(chart, &look, &ruler, true);
+    }
+    let layout = layout?;
     let labels = point_labels(chart, &look, &ruler, &layout);
     document(chart, &look, &layout, &labels)
 }
@@ -134,6 +143,13 @@ fn box_of(written: &Written, ruler: &Ruler) -> Rectangle {
     Rectangle { left, top, right: left + width, bottom }
 }
 
+/// Names beside what they name, and the lines that lead to those further away.
+#[derive(Debug, Default)]
+struct Labels {
+    texts: Vec<Written>,
+    leaders: Vec<([[f64; 2]; 2], [u8; 3])>,
+}
+
 struct Wanted {
     text: String,
     ink: Ink,
@@ -148,7 +164,7 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
     let mut wanted = Vec::new();
     for (own, curve) in chart.curves.iter().enumerate() {
         if curves && !curve.text().is_empty() && !obstacles[own].lines.is_empty() {
-            let request = Request { size: size(curve.text()), lines: obstacles[own].lines.clone(), own, clear: 0.45 * em };
+            let request = Request { size: size(curve.text()), lines: obstacles[own].lines.clone(), own, clear: 0.45 * em, may_cross: true };
             wanted.push(Wanted { text: curve.text().to_owned(), ink: look.readable(curve.ink), request, needed: true });
         }
     }
@@ -157,7 +173,7 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
         // Only the head: a name half-way up would be taken for a place on the wavelength axis.
         let head = obstacles[own].lines.iter().flatten().copied().min_by(|a, b| a[1].total_cmp(&b[1]));
         if let (false, Some(head)) = (impulse.label.is_empty(), head) {
-            let request = Request { size: size(&impulse.label), lines: vec![vec![head]], own, clear: 0.45 * em };
+            let request = Request { size: size(&impulse.label), lines: vec![vec![head]], own, clear: 0.45 * em, may_cross: false };
             wanted.push(Wanted { text: impulse.label.clone(), ink: Ink::Text, request, needed: false });
         }
     }
@@ -165,7 +181,7 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
         let own = chart.curves.len() + chart.impulses.len() + index;
         if point.written && !point.label.is_empty() {
             let clear = radius_px(look, point.radius) + 0.3 * em;
-            let request = Request { size: size(&point.label), lines: obstacles[own].lines.clone(), own, clear };
+            let request = Request { size: size(&point.label), lines: obstacles[own].lines.clone(), own, clear, may_cross: false };
             wanted.push(Wanted { text: point.label.clone(), ink: Ink::Text, request, needed: false });
         }
     }
@@ -173,26 +189,26 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
 }
 
 /// Labels of curves, impulses and points; `None` if a curve's finds no room.
-fn direct_labels(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout) -> Option<Vec<Written>> {
+fn direct_labels(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout) -> Option<Labels> {
     labels_of(chart, look, ruler, layout, true)
 }
 
 /// Labels of impulses and points where there is room.
-fn point_labels(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout) -> Vec<Written> {
+fn point_labels(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout) -> Labels {
     labels_of(chart, look, ruler, layout, false).unwrap_or_default()
 }
 
-fn labels_of(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout, curves: bool) -> Option<Vec<Written>> {
+fn labels_of(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout, curves: bool) -> Option<Labels> {
     let em = look.text_px;
     let obstacles = obstacles(chart, look, &layout.frame);
     let wanted = wanted(chart, look, ruler, &obstacles, curves);
     let fixed: Vec<Rectangle> = fixed_texts(chart, look, &layout.frame).iter().map(|written| box_of(written, ruler)).collect();
     let requests: Vec<Request> = wanted.iter().map(|wanted| wanted.request.clone()).collect();
     let placed = labels::place(&requests, &obstacles, &fixed, &layout.frame, em);
+    let mut labels = Labels::default();
     let shade = chart.shade.as_ref().map(|shade| on_page(chart, &layout.frame, &shade.outline));
-    let mut written = Vec::new();
     for (wanted, area) in wanted.iter().zip(placed) {
-        let Some(area) = area else {
+        let Some(Placed { area, leader }) = area else {
             if wanted.needed {
                 return None;
             }
@@ -202,7 +218,10 @@ fn labels_of(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout, curves:
         let middle = [0.5 * (area.left + area.right), 0.5 * (area.top + area.bottom)];
         let on_shade = wanted.ink == Ink::Text && shade.as_ref().is_some_and(|outline| is_inside(outline, middle));
         let colour = look.colour(if on_shade { Ink::OnShade } else { wanted.ink });
-        written.push(Written {
+        if let Some(line) = leader {
+            labels.leaders.push((line, colour));
+        }
+        labels.texts.push(Written {
             text: wanted.text.clone(),
             x: area.left,
             baseline,
@@ -212,7 +231,7 @@ fn labels_of(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout, curves:
             colour,
         });
     }
-    Some(written)
+    Some(labels)
 }
 
 /// A name for the gradient that no other picture on the same page bears.
@@ -224,7 +243,7 @@ fn gradient_name(chart: &Chart) -> String {
     format!("strip-{:08x}", hash as u32)
 }
 
-fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &[Written]) -> Result<String, PlotError> {
+fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &Labels) -> Result<String, PlotError> {
     let frame = &layout.frame;
     let mut canvas = Canvas::new(look.width, look.height);
     let strip_name = gradient_name(chart);
@@ -273,6 +292,9 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &[Written]) -> 
         let stroke = Stroke { colour: look.colour(impulse.ink), width_px: look.line_px, dash: Dash::Solid };
         canvas.lines(&impulse_line(chart, frame, impulse.x, impulse.height), stroke)?;
     }
+    for (line, colour) in &labels.leaders {
+        canvas.hairs(&[line.to_vec()], *colour, look.hair_px)?;
+    }
     for point in &chart.points {
         let at = place(chart, frame, point.at);
         if frame.grown(1.0).holds(&Rectangle { left: at[0], right: at[0], top: at[1], bottom: at[1] }) {
@@ -302,7 +324,7 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &[Written]) -> 
     out += &canvas.elements;
     let legend = layout.legend.iter().map(|row| &row.text);
     let fixed = fixed_texts(chart, look, frame);
-    for written in layout.texts.iter().chain(legend).chain(&fixed).chain(labels) {
+    for written in layout.texts.iter().chain(legend).chain(&fixed).chain(&labels.texts) {
         out += &written.svg();
     }
     Ok(out + "</svg>\n")

@@ -45,7 +45,7 @@ fn list_lines(rows: &[&SheetRow]) -> Vec<String> {
             SheetValue::Text(text) => lines.push(format!("{head}{}{text}", " ".repeat(column.indent()))),
             SheetValue::Undefined(why) => {
                 let indent = " ".repeat(head.chars().count() + column.indent());
-                lines.extend(wrapped(&format!("– ({why})"), &format!("{head}{}", " ".repeat(column.indent())), &format!("{indent}   ")));
+                lines.extend(wrapped(&format!("– {why}"), &format!("{head}{}", " ".repeat(column.indent())), &format!("{indent}  ")));
             }
         }
     }
@@ -105,7 +105,11 @@ fn number(row: &SheetRow) -> Option<String> {
         return Some(rounded.to_string());
     }
     Some(match row.digits {
-        Digits::Significant(digits) => format_significant(value, digits),
+        // A reader of a page wants 109503 lx, not 1.0950e5 lx.
+        Digits::Significant(digits) => match value.abs() {
+            size if (1e5..9_999_999.5).contains(&size) => format!("{value:.0}"),
+            _ => format_significant(value, digits),
+        },
         Digits::Decimals(places) => {
             let text = format!("{value:.places$}");
             // Rounding to nothing leaves a sign behind.

@@ -8,7 +8,7 @@ use crate::spectrum::table_text::{TextRules, parse};
 use crate::spectrum::{Density, Factor, Outside, Table};
 
 /// How many files there are.
-const COUNT: usize = 29;
+const COUNT: usize = 31;
 
 /// The files, as text.
 pub(in crate::spectrum) const FILES: [&str; COUNT] = [
@@ -39,6 +39,8 @@ pub(in crate::spectrum) const FILES: [&str; COUNT] = [
     include_str!("../../../data/astm_g173.csv"),
     include_str!("../../../data/colorchecker_babel_10nm.csv"),
     include_str!("../../../data/colorchecker_ohta_5nm.csv"),
+    include_str!("../../../data/camera_nikon_5100_5nm.csv"),
+    include_str!("../../../data/camera_sigma_sdmerill_10nm.csv"),
     include_str!("../../../data/cie170_components_5nm.csv"),
     include_str!("../../../data/d_series_basis_5nm.csv"),
 ];
@@ -101,19 +103,21 @@ impl Header {
         Some((from.parse().ok()?, to.parse().ok()?))
     }
 
-    /// All names of a column as an entry, the official one first.
+    /// All names of a column as an entry: the official one, its own short ones, then those it has from the file.
     fn names_of(&self, column: usize) -> Vec<String> {
-        let whole = self.names();
-        let mut names: Vec<String> = match self.columns.get(column) {
-            Some(_) if self.columns.len() < 2 => return whole.iter().map(|name| (*name).to_owned()).collect(),
-            Some(own) if self.is_series() => vec![(*own).to_owned()],
-            Some(own) => whole.iter().map(|name| format!("{name} {own}")).collect(),
-            None => Vec::new(),
-        };
-        if let Some(aliases) = self.list("column_aliases").get(column) {
-            names.extend(aliases.split('|').map(|alias| alias.trim().to_owned()));
+        let Some(own) = self.columns.get(column) else { return Vec::new() };
+        let mut whole = self.names().into_iter();
+        if self.columns.len() < 2 {
+            return whole.map(str::to_owned).collect();
         }
-        names
+        let aliases = self.list("column_aliases").get(column).copied().unwrap_or_default();
+        let short = aliases.split('|').map(|alias| alias.trim().to_owned()).filter(|alias| !alias.is_empty());
+        if self.is_series() {
+            return std::iter::once((*own).to_owned()).chain(short).collect();
+        }
+        let long = |name: &str| format!("{name} {own}");
+        let official = long(whole.next().unwrap_or_default());
+        std::iter::once(official).chain(short).chain(whole.map(long)).collect()
     }
 
     /// The entry of a column. `None` if the header is not complete, which the tests exclude.

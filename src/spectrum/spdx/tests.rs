@@ -122,3 +122,16 @@ fn unknown_elements_are_left_out_and_told() {
     assert_eq!(found.quantity, SpectralQuantity::Relative);
     assert!(found.remarks[0].contains("`Colour`"), "{:?}", found.remarks);
 }
+
+#[test]
+fn files_of_other_programs_are_read() {
+    // As the package colour-science writes them: another namespace, `None` where nothing is known.
+    let text = "<?xml version=\"1.0\" ?>\n<IESTM2714 xmlns=\"http://www.ies.org/iestm2714\" version=\"1.0\">\n\t<Header>\n\t\t<Description>d</Description>\n\t\t\
+        <DocumentCreator>c</DocumentCreator>\n\t</Header>\n\t<SpectralDistribution>\n\t\t<SpectralQuantity>flux</SpectralQuantity>\n\t\t\
+        <ReflectionGeometry>None</ReflectionGeometry>\n\t\t<BandwidthFWHM>None</BandwidthFWHM>\n\t\t<BandwidthCorrected>false</BandwidthCorrected>\n\t\t\
+        <SpectralData wavelength=\"380.0\">0.5</SpectralData>\n\t\t<SpectralData wavelength=\"400.0\">1.0</SpectralData>\n\t</SpectralDistribution>\n</IESTM2714>\n";
+    let found = read(text.as_bytes()).unwrap();
+    assert_eq!((found.wavelengths_nm, found.values), (vec![380.0, 400.0], vec![0.5, 1.0]));
+    assert_eq!((found.reflection_geometry, found.bandwidth_fwhm_nm, found.bandwidth_corrected), (None, None, Some(false)));
+    assert!(found.remarks.is_empty());
+}
