@@ -321,7 +321,7 @@ fn hostile_charts_are_errors_or_pictures_and_never_broken() {
     let wild = [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e308, -1e308, 0.5, 5e-324];
     let points = wild.iter().flat_map(|x| wild.iter().map(|y| [*x, *y])).collect();
     chart.curves.push(Curve::new("a <b> c", points, Ink::Palette(usize::MAX)));
-    chart.points.push(Point { label: "&".to_owned(), at: [0.5, 0.0], ink: Ink::Muted, radius: 1.0 });
+    chart.points.push(Point { label: "&".to_owned(), written: true, at: [0.5, 0.0], ink: Ink::Muted, radius: 1.0 });
     let svg = plot::svg(&chart, &style(Theme::Dark, Size::Paper)).expect("drawable");
     let document = Document::parse(&svg).expect("well-formed");
     assert!(texts(&document).contains(&"<script>\u{fffd}&".to_owned()));

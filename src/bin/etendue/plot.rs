@@ -192,7 +192,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 impl VLambda {
     fn chart(&self) -> Result<Chart, Failure> {
         let usual = plot::v_lambda::Choice::default();
-        let functions = all(&self.functions, |name| observer::Efficiency::named(name))?;
+        let functions = all(&self.functions, observer::Efficiency::named)?;
         let (functions, mesopic) = match (functions.is_empty() && self.mesopic.is_none(), &self.mesopic) {
             (true, _) => (usual.functions, usual.mesopic),
             (false, mesopic) => (functions, mesopic.clone().unwrap_or_default()),

@@ -44,7 +44,7 @@ pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], 
 /// Every 5 nm where the ticks leave room between them; rounder ones, which come first, displace the others.
 fn places(diagram: Diagram, matching: &[Factor; 3], em: f64) -> Vec<Place> {
     let (from_nm, to_nm) = (DRAWN_NM.0 as u32, DRAWN_NM.1 as u32);
-    let rank = |nm: u32| [100, 50, 20, 10, 5].iter().position(|step| nm % step == 0);
+    let rank = |nm: u32| [100, 50, 20, 10, 5].iter().position(|step| nm.is_multiple_of(*step));
     let mut order: Vec<u32> = (from_nm..=to_nm).step_by(5).collect();
     order.sort_by_key(|nm| (rank(*nm), *nm));
     let at = |nm: u32| spectral_locus(matching, f64::from(nm), f64::from(nm), 1.0).first().map(|point| diagram.place(&point.chromaticity));
