@@ -321,7 +321,11 @@ fn all<T, E: std::fmt::Display>(names: &[String], meant: impl Fn(&str) -> Result
     for name in names {
         match meant(name) {
             Ok(one) => found.push(one),
-            Err(problem) => problems.push(format!("error: {problem}")),
+            Err(problem) => {
+                let problem = problem.to_string();
+                // Diagnostics of files say so themselves.
+                problems.push(if problem.starts_with("error") { problem } else { format!("error: {problem}") });
+            }
         }
     }
     if problems.is_empty() { Ok(found) } else { Err(Failure::Input(problems.join("\n"))) }
