@@ -6,7 +6,10 @@ use std::collections::BTreeMap;
 
 use etendue::observer::{Cones, Efficiency, Individual, Matching};
 use etendue::report::plot::chart::{Axis, Chart, Curve, Ink, Point, Scale};
-use etendue::report::plot::{self, PlotError, Size, Style, Theme, blackbody, cmf, cones, pigments, reflectance, spectrum, v_lambda};
+use etendue::report::plot::chromaticity::{Contents, Diagram};
+use etendue::report::plot::{
+    self, PlotError, Size, Style, Theme, blackbody, chromaticity, cmf, cones, pigments, reflectance, spectrum, v_lambda,
+};
 use etendue::spectrum::{Density, Factor, Line, library};
 use resvg::usvg::roxmltree::{Document, Node};
 
@@ -74,16 +77,23 @@ fn charts() -> Vec<(&'static str, Chart)> {
 
 const SIZES: [Size; 4] = [Size::Paper, Size::Column, Size::Slide, Size::Custom { width_px: 1000, height_px: 800 }];
 
-fn all_drawn() -> impl Iterator<Item = (String, Chart, String)> {
-    charts().into_iter().flat_map(|(name, chart)| {
-        [Theme::Light, Theme::Dark].into_iter().flat_map(move |theme| {
-            let (name, chart) = (name, chart.clone());
-            SIZES.into_iter().map(move |size| {
+/// Every chart in both themes and all sizes: what it is called, the chart, its picture.
+fn all_drawn() -> Vec<(String, Chart, String)> {
+    let mut drawn = Vec::new();
+    for size in SIZES {
+        // A chromaticity diagram is made for a size.
+        let diagrams = [("xy", Diagram::Xy), ("u′v′", Diagram::UvPrime)].map(|(name, diagram)| {
+            let contents = Contents { size, ..Contents::new(diagram, Matching::Cie1931) };
+            (name, chromaticity::chart(&contents).expect("a diagram"))
+        });
+        for (name, chart) in charts().into_iter().chain(diagrams) {
+            for theme in [Theme::Light, Theme::Dark] {
                 let svg = plot::svg(&chart, &style(theme, size)).unwrap_or_else(|e| panic!("{name} {size:?}: {e}"));
-                (format!("{name}, {theme:?}, {size:?}"), chart.clone(), svg)
-            })
-        })
-    })
+                drawn.push((format!("{name}, {theme:?}, {size:?}"), chart.clone(), svg));
+            }
+        }
+    }
+    drawn
 }
 
 fn attribute(node: &Node, name: &str) -> f64 {
@@ -321,7 +331,7 @@ fn hostile_charts_are_errors_or_pictures_and_never_broken() {
     let wild = [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e308, -1e308, 0.5, 5e-324];
     let points = wild.iter().flat_map(|x| wild.iter().map(|y| [*x, *y])).collect();
     chart.curves.push(Curve::new("a <b> c", points, Ink::Palette(usize::MAX)));
-    chart.points.push(Point { label: "&".to_owned(), at: [0.5, 0.0], ink: Ink::Muted, radius: 1.0 });
+    chart.points.push(Point { label: "&".to_owned(), written: true, at: [0.5, 0.0], ink: Ink::Muted, radius: 1.0 });
     let svg = plot::svg(&chart, &style(Theme::Dark, Size::Paper)).expect("drawable");
     let document = Document::parse(&svg).expect("well-formed");
     assert!(texts(&document).contains(&"<script>\u{fffd}&".to_owned()));
@@ -371,7 +381,7 @@ fn the_command_writes_whole_files_and_says_which() {
     };
     let failing: [(&[&str], &[&str]); 9] = [
         (&["plot", "v-lambda", "--out", "plot.gif"], &[".gif", ".svg, .png", "plot.svg"]),
-        (&["plot", "v-lambda", "skotopic"], &["skotopic", "scotopic"]),
+        (&["plot", "v-lambda", "skotopic"], &["skotopic", "V'(lambda)"]),
         (&["plot", "konus"], &["konus", "cones"]),
         (&["plot", "cones", "--age", "19,20"], &["19", "20 yr"]),
         (&["plot", "spectrum", "D56", "FL99"], &["D56", "D55", "FL99"]),

@@ -192,7 +192,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 impl VLambda {
     fn chart(&self) -> Result<Chart, Failure> {
         let usual = plot::v_lambda::Choice::default();
-        let functions = all(&self.functions, |name| observer::Efficiency::named(name))?;
+        let functions = all(&self.functions, observer::Efficiency::named)?;
         let (functions, mesopic) = match (functions.is_empty() && self.mesopic.is_none(), &self.mesopic) {
             (true, _) => (usual.functions, usual.mesopic),
             (false, mesopic) => (functions, mesopic.clone().unwrap_or_default()),
@@ -321,7 +321,11 @@ fn all<T, E: std::fmt::Display>(names: &[String], meant: impl Fn(&str) -> Result
     for name in names {
         match meant(name) {
             Ok(one) => found.push(one),
-            Err(problem) => problems.push(format!("error: {problem}")),
+            Err(problem) => {
+                let problem = problem.to_string();
+                // Diagnostics of files say so themselves.
+                problems.push(if problem.starts_with("error") { problem } else { format!("error: {problem}") });
+            }
         }
     }
     if problems.is_empty() { Ok(found) } else { Err(Failure::Input(problems.join("\n"))) }

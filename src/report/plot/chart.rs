@@ -135,6 +135,8 @@ pub enum Ink {
     Text,
     /// The colour of what stands behind: references, minor text.
     Muted,
+    /// The colour of the grid: names may stand on such a line.
+    Grid,
     /// The colour of text and lines on a shade, dark in both themes.
     OnShade,
     /// A colour of its own, sRGB.

@@ -21,14 +21,15 @@ pub fn chart(sensors: &[Sensor]) -> Result<Chart, PlotError> {
     };
     let drawn: Vec<Vec<[f64; 2]>> = cuts.iter().map(curve).collect();
     let largest = drawn.iter().flatten().map(|p| p[0].hypot(p[1])).fold(1.0, f64::max);
-    let rim = 0.25 * (4.0 * largest - 1e-9).ceil();
+    // A response that is larger along some other direction by a hair does not need another circle.
+    let rim = 0.25 * (4.0 * largest - 0.05).ceil();
     let hidden =
         |from: f64, to: f64| Axis { visible: false, ..Axis::linear("Relative response R(θ) cos θ", "1 along the normal", from, to) };
-    let done = "response R(θ) cos θ to a parallel beam, 1 along the normal; angle of incidence θ";
+    let done = "response R(θ) cos θ to a parallel beam, 1 along the normal";
     let mut chart =
         Chart::new("Directional response", &subtitle(sensors, done), hidden(-1.18 * rim, 1.18 * rim), hidden(-0.12 * rim, 1.13 * rim));
     chart.equal_scale = true;
-    chart.proportion = Some(0.66);
+    chart.proportion = Some(0.58);
     grid(&mut chart, rim);
     let cosine = every(-90.0, 90.0, 1.0).into_iter().map(f64::to_radians).map(|t| at(t.cos().max(0.0), t)).collect();
     chart.curves.push(Curve::new("cos θ", cosine, Ink::Muted).behind());
@@ -43,7 +44,7 @@ fn at(radius: f64, theta_rad: f64) -> [f64; 2] {
 
 /// Half circles every quarter and spokes every 15°, with their numbers.
 fn grid(chart: &mut Chart, rim: f64) {
-    let thin = |label: &str, points| Curve { width: 0.28, ..Curve::new(label, points, Ink::Muted).unwritten() };
+    let thin = |label: &str, points| Curve { width: 0.5, ..Curve::new(label, points, Ink::Grid).unwritten() };
     let note = |text: String, at: [f64; 2], shift_em: [f64; 2], anchor| Note { text, at, shift_em, anchor, ink: Ink::Muted };
     let circles = (4.0 * rim).round() as u32;
     for quarter in 1..=circles {

@@ -14,7 +14,7 @@ use crate::spectrum::{Factor, library};
 
 use super::PlotError;
 use super::chart::{Axis, Chart, Curve, Dash, Ink};
-use super::sample::{every, of_factor, strip};
+use super::sample::{every, of_factor, strip, subscripted};
 
 /// Azimuths of the planes of a response that depends on it, degrees.
 const PLANES_DEG: [f64; 4] = [0.0, 45.0, 90.0, 135.0];
@@ -64,7 +64,8 @@ pub fn responsivity(sensors: &[Sensor]) -> Result<Chart, PlotError> {
         .iter()
         .flat_map(|sensor| sensor.channels.iter().map(move |channel| (sensor, channel)))
         .map(|(sensor, channel)| {
-            let label = if sensors.len() > 1 { format!("{}: {}", sensor.title, channel.name) } else { channel.name.clone() };
+            let name = subscripted(&channel.name);
+            let label = if sensors.len() > 1 { format!("{}: {name}", sensor.title) } else { name };
             (label, &channel.responsivity)
         })
         .collect();
@@ -79,7 +80,8 @@ pub fn responsivity(sensors: &[Sensor]) -> Result<Chart, PlotError> {
     let (from, to) = (from.max(WIDEST_NM.0), to.min(WIDEST_NM.1));
     let x = Axis::linear("Wavelength λ", "nm", from, to);
     let y = Axis::linear("Relative spectral responsivity", "1 at the peak", 0.0, 1.05);
-    let mut chart = Chart::new("Spectral responsivity", &subtitle(sensors, "each channel relative to its peak"), x, y);
+    let title = if let [one] = sensors { format!("{}; ", one.title) } else { String::new() };
+    let mut chart = Chart::new("Spectral responsivity", &format!("{title}each channel relative to its peak"), x, y);
     let v = of_factor(&library::v_lambda(), from, to);
     chart.curves.push(Curve::new("V(λ)", v, Ink::Muted).behind());
     for (index, (label, factor)) in channels.into_iter().enumerate() {
@@ -179,10 +181,10 @@ pub(super) fn styled(label: &str, points: Vec<[f64; 2]>, index: usize) -> Curve 
     Curve::new(label, points, Ink::Palette(index)).dashed(dash)
 }
 
-/// The sensor, if there is one only, and what was done.
+/// The sensor, unless its name stands at its curve, and what was done.
 pub(super) fn subtitle(sensors: &[Sensor], done: &str) -> String {
     match sensors {
-        [one] => format!("{}; {done}", one.title),
+        [one] if !is_symmetric(&one.acceptance) => format!("{}; {done}", one.title),
         _ => done.to_owned(),
     }
 }

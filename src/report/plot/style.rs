@@ -133,6 +133,7 @@ impl Look {
             Ink::Palette(index) => self.palette[index % self.palette.len()],
             Ink::Text => self.text,
             Ink::Muted => self.muted,
+            Ink::Grid => self.grid,
             Ink::OnShade => [24, 26, 32],
             Ink::Fixed(colour) => colour,
         }

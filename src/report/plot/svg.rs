@@ -84,8 +84,10 @@ fn impulse_line(chart: &Chart, frame: &Rectangle, x: f64, height: f64) -> Vec<Ve
 
 /// Everything a label has to keep clear of: curves, impulses, points; in this order.
 fn obstacles(chart: &Chart, look: &Look, frame: &Rectangle) -> Vec<Obstacle> {
-    let curves =
-        chart.curves.iter().map(|c| Obstacle { lines: lines_of(chart, frame, &c.points), half_width: 0.5 * look.line_px * c.width });
+    let curves = chart.curves.iter().map(|c| {
+        let lines = if c.ink == Ink::Grid { Vec::new() } else { lines_of(chart, frame, &c.points) };
+        Obstacle { lines, half_width: 0.5 * look.line_px * c.width }
+    });
     let impulses =
         chart.impulses.iter().map(|i| Obstacle { lines: impulse_line(chart, frame, i.x, i.height), half_width: 0.5 * look.line_px });
     let points = chart.points.iter().map(|p| {
@@ -281,7 +283,7 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &Labels) -> Res
     }
     // What is muted stands behind.
     for muted in [true, false] {
-        for curve in chart.curves.iter().filter(|curve| (curve.ink == Ink::Muted) == muted) {
+        for curve in chart.curves.iter().filter(|curve| matches!(curve.ink, Ink::Muted | Ink::Grid) == muted) {
             let lines = lines_of(chart, frame, &curve.points);
             stroke(&mut canvas, look, &lines, curve, look.line_px * curve.width)?;
         }

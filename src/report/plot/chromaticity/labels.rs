@@ -10,7 +10,7 @@ use super::super::polyline::{is_inside, walked};
 const LETTER_EM: f64 = 0.56;
 const HALF_HEIGHT_EM: f64 = 0.38;
 /// Distances of a name from its point; from the third on a line leads there.
-const RINGS_EM: [f64; 9] = [0.5, 0.75, 1.4, 2.0, 2.8, 3.8, 5.0, 6.5, 8.5];
+const RINGS_EM: [f64; 11] = [0.5, 0.75, 1.4, 2.0, 2.8, 3.8, 5.0, 6.5, 8.5, 11.0, 14.0];
 const FIRST_LED: usize = 2;
 /// Room around a name.
 const CLEAR_EM: f64 = 0.16;
@@ -86,10 +86,10 @@ impl<'a> Names<'a> {
     pub(super) fn beside_point(&mut self, chart: &mut Chart, text: &str, at: [f64; 2]) -> bool {
         let half = self.half(text);
         for (ring, distance) in RINGS_EM.into_iter().enumerate() {
-            for step in 0..16 {
+            for step in 0..32 {
                 // To the right first, then below and above it, at last to the left.
                 let turn = f64::from((step + 1) / 2) * if step % 2 == 0 { 1.0 } else { -1.0 };
-                let (sin, cos) = (std::f64::consts::PI / 8.0 * turn).sin_cos();
+                let (sin, cos) = (std::f64::consts::PI / 16.0 * turn).sin_cos();
                 let reach = |i: usize, along: f64| {
                     along * distance * self.em + half[i] * along.signum() * f64::from(along.abs() > 1e-9).min(along.abs() * 1.5)
                 };
@@ -107,7 +107,9 @@ impl<'a> Names<'a> {
                 if led {
                     let short = 1.0 - 0.15 * self.em / area.distance(at).max(0.15 * self.em);
                     let end = [0, 1].map(|i| at[i] + short * (foot[i] - at[i]));
-                    chart.curves.push(Curve { width: 0.4, ..Curve::new(text, vec![at, end], Ink::OnShade).unwritten() });
+                    chart
+                        .curves
+                        .push(Curve { width: 0.4, ..Curve::new(&format!("line to {text}"), vec![at, end], Ink::OnShade).unwritten() });
                     self.lines.extend(walked(&[at, end], 0.12 * self.em));
                 }
                 self.write(chart, text, area);

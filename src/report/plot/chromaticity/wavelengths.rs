@@ -3,7 +3,7 @@
 use super::super::chart::{Anchor, Chart, Curve, Ink, Note};
 use super::Diagram;
 use super::loci::{DRAWN_NM, unit};
-use crate::observer::colour::spectral_locus;
+use crate::observer::colour::{Chromaticity, spectral_locus};
 use crate::spectrum::Factor;
 
 /// Lengths of ticks every 10 nm and every 5 nm, in sizes of the text.
@@ -44,7 +44,7 @@ pub(super) fn draw(chart: &mut Chart, diagram: Diagram, matching: &[Factor; 3], 
 /// Every 5 nm where the ticks leave room between them; rounder ones, which come first, displace the others.
 fn places(diagram: Diagram, matching: &[Factor; 3], em: f64) -> Vec<Place> {
     let (from_nm, to_nm) = (DRAWN_NM.0 as u32, DRAWN_NM.1 as u32);
-    let rank = |nm: u32| [100, 50, 20, 10, 5].iter().position(|step| nm % step == 0);
+    let rank = |nm: u32| [100, 50, 20, 10, 5].iter().position(|step| nm.is_multiple_of(*step));
     let mut order: Vec<u32> = (from_nm..=to_nm).step_by(5).collect();
     order.sort_by_key(|nm| (rank(*nm), *nm));
     let at = |nm: u32| spectral_locus(matching, f64::from(nm), f64::from(nm), 1.0).first().map(|point| diagram.place(&point.chromaticity));
@@ -56,8 +56,10 @@ fn places(diagram: Diagram, matching: &[Factor; 3], em: f64) -> Vec<Place> {
         let [dx, dy] = unit([after[0] - before[0], after[1] - before[1]]);
         let apart = places.iter().all(|other| (here[0] - other.at[0]).hypot(here[1] - other.at[1]) > 0.3 * em);
         if dx.is_finite() && dy.is_finite() && apart {
-            // From blue over green to red the outside is at the left hand.
-            places.push(Place { nm, at: here, outwards: [-dy, dx] });
+            // From blue over green to red the outside is at the left hand; at the red end some observers' locus folds back.
+            let white = diagram.place(&Chromaticity { x: 1.0 / 3.0, y: 1.0 / 3.0 });
+            let folded = -dy * (here[0] - white[0]) + dx * (here[1] - white[1]) < 0.0;
+            places.push(Place { nm, at: here, outwards: if folded { [dy, -dx] } else { [-dy, dx] } });
         }
     }
     places
