@@ -192,7 +192,7 @@ fn the_command_lists_computes_and_refuses() {
         (&["equation", "photon-energy", "wavelength_nm=NaN"], "allowed: finite and above 0"),
         (&["equation", "photon-energy", "wavelength_nm=555", "wavelength_nm=556"], "given twice"),
         (&["equation", "flux-from-power", "efficiency=1.1", "power_w=60"], "allowed: 0 to 1"),
-        (&["equation", "radiance-to-luminance", "radiance_w_m2_sr=1", "spectrum=D56"], "nearest"),
+        (&["equation", "radiance-to-luminance", "radiance_w_m2_sr=1", "spectrum=D56"], "D5"),
     ] {
         let (code, out, err) = etendue(arguments);
         assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}: {err}");

@@ -6,7 +6,10 @@ use std::collections::BTreeMap;
 
 use etendue::observer::{Cones, Efficiency, Individual, Matching};
 use etendue::report::plot::chart::{Axis, Chart, Curve, Ink, Point, Scale};
-use etendue::report::plot::{self, PlotError, Size, Style, Theme, blackbody, cmf, cones, pigments, reflectance, spectrum, v_lambda};
+use etendue::report::plot::chromaticity::{Contents, Diagram};
+use etendue::report::plot::{
+    self, PlotError, Size, Style, Theme, blackbody, chromaticity, cmf, cones, pigments, reflectance, spectrum, v_lambda,
+};
 use etendue::spectrum::{Density, Factor, Line, library};
 use resvg::usvg::roxmltree::{Document, Node};
 
@@ -30,7 +33,7 @@ fn mercury() -> Chart {
     let lines = lines.map(|(wavelength_nm, power)| Line { wavelength_nm, power });
     let item = spectrum::Item { name: "mercury".to_owned(), density: Density::lines_only(&lines).expect("lines") };
     let choice =
-        spectrum::Choice { items: vec![item], scaling: spectrum::Scaling::AsGiven, unit: "W".to_owned(), from_nm: 380.0, to_nm: 780.0 };
+        spectrum::Choice { items: vec![item], scaling: spectrum::Scaling::AsGiven, unit: "W/nm".to_owned(), from_nm: 380.0, to_nm: 780.0 };
     spectrum::chart(&choice).expect("drawable")
 }
 
@@ -74,16 +77,23 @@ fn charts() -> Vec<(&'static str, Chart)> {
 
 const SIZES: [Size; 4] = [Size::Paper, Size::Column, Size::Slide, Size::Custom { width_px: 1000, height_px: 800 }];
 
-fn all_drawn() -> impl Iterator<Item = (String, Chart, String)> {
-    charts().into_iter().flat_map(|(name, chart)| {
-        [Theme::Light, Theme::Dark].into_iter().flat_map(move |theme| {
-            let (name, chart) = (name, chart.clone());
-            SIZES.into_iter().map(move |size| {
+/// Every chart in both themes and all sizes: what it is called, the chart, its picture.
+fn all_drawn() -> Vec<(String, Chart, String)> {
+    let mut drawn = Vec::new();
+    for size in SIZES {
+        // A chromaticity diagram is made for a size.
+        let diagrams = [("xy", Diagram::Xy), ("u′v′", Diagram::UvPrime)].map(|(name, diagram)| {
+            let contents = Contents { size, ..Contents::new(diagram, Matching::Cie1931) };
+            (name, chromaticity::chart(&contents).expect("a diagram"))
+        });
+        for (name, chart) in charts().into_iter().chain(diagrams) {
+            for theme in [Theme::Light, Theme::Dark] {
                 let svg = plot::svg(&chart, &style(theme, size)).unwrap_or_else(|e| panic!("{name} {size:?}: {e}"));
-                (format!("{name}, {theme:?}, {size:?}"), chart.clone(), svg)
-            })
-        })
-    })
+                drawn.push((format!("{name}, {theme:?}, {size:?}"), chart.clone(), svg));
+            }
+        }
+    }
+    drawn
 }
 
 fn attribute(node: &Node, name: &str) -> f64 {
@@ -164,6 +174,29 @@ fn boxes(svg: &str) -> Vec<(String, [f64; 4])> {
     found
 }
 
+/// Two texts of which one stands on the other.
+fn overlap(boxes: &[(String, [f64; 4])]) -> Option<String> {
+    for (index, (text, area)) in boxes.iter().enumerate() {
+        for (other, taken) in &boxes[index + 1..] {
+            if area[2] > taken[0] && taken[2] > area[0] && area[3] > taken[1] && taken[3] > area[1] {
+                return Some(format!("`{text}` {area:?} and `{other}` {taken:?}"));
+            }
+        }
+    }
+    None
+}
+
+#[test]
+fn texts_on_top_of_each_other_would_be_found() {
+    let two = |gap: f64| {
+        let texts = [0.0, gap].map(|x| format!("<text x=\"{}\" y=\"50\" font-size=\"10\">wavelength</text>", 20.0 + x));
+        let svg =
+            format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 200 100\" font-family=\"Roboto\">{}</svg>", texts.concat());
+        overlap(&boxes(&svg))
+    };
+    assert!(two(40.0).is_some() && two(60.0).is_none());
+}
+
 #[test]
 fn no_text_stands_on_another_and_nothing_leaves_the_canvas() {
     for (name, _, svg) in all_drawn() {
@@ -174,14 +207,11 @@ fn no_text_stands_on_another_and_nothing_leaves_the_canvas() {
         // The document is scaled to its size in mm; boxes come in px of that size.
         let boxes = boxes(&svg);
         assert!(boxes.len() > 8, "{name}");
-        for (index, (text, area)) in boxes.iter().enumerate() {
+        for (text, area) in &boxes {
             let inside = area[0] >= 0.0 && area[1] >= 0.0 && area[2] <= width + 0.5 && area[3] <= height + 0.5;
             assert!(inside, "{name}: `{text}` at {area:?} leaves {width} × {height}");
-            for (other, taken) in &boxes[index + 1..] {
-                let apart = area[2] <= taken[0] || taken[2] <= area[0] || area[3] <= taken[1] || taken[3] <= area[1];
-                assert!(apart, "{name}: `{text}` {area:?} and `{other}` {taken:?}");
-            }
         }
+        assert_eq!(overlap(&boxes), None, "{name}");
         for [x, y] in shapes(&document).into_iter().flat_map(|(_, points)| points) {
             let inside = (0.0..=width + 0.1).contains(&x) && (0.0..=height + 0.1).contains(&y);
             assert!(inside, "{name}: ({x}, {y}) leaves {width} × {height}");
@@ -263,7 +293,7 @@ fn the_table_holds_the_values_of_the_functions() {
         assert!((value / exact - 1.0).abs() < 1e-11, "{nm} nm: {value} {exact}");
     }
     let found = plot::csv(&mercury());
-    assert!(found.starts_with("item,kind,Wavelength λ (nm),Power of a line (W)") || found.contains("Power of a line"), "{found}");
+    assert!(found.starts_with("item,kind,Wavelength λ (nm),Power of a line (W),"), "{found}");
     assert!(found.contains("546.07 nm,line,546.07,3"), "{found}");
 }
 
@@ -301,7 +331,7 @@ fn hostile_charts_are_errors_or_pictures_and_never_broken() {
     let wild = [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e308, -1e308, 0.5, 5e-324];
     let points = wild.iter().flat_map(|x| wild.iter().map(|y| [*x, *y])).collect();
     chart.curves.push(Curve::new("a <b> c", points, Ink::Palette(usize::MAX)));
-    chart.points.push(Point { label: "&".to_owned(), at: [0.5, 0.0], ink: Ink::Muted, radius: 1.0 });
+    chart.points.push(Point { label: "&".to_owned(), written: true, at: [0.5, 0.0], ink: Ink::Muted, radius: 1.0 });
     let svg = plot::svg(&chart, &style(Theme::Dark, Size::Paper)).expect("drawable");
     let document = Document::parse(&svg).expect("well-formed");
     assert!(texts(&document).contains(&"<script>\u{fffd}&".to_owned()));
@@ -309,7 +339,6 @@ fn hostile_charts_are_errors_or_pictures_and_never_broken() {
     let many = (0..200).map(|i| Curve::new(&format!("a curve with a long name {i}"), vec![[0.0, 0.0], [1.0, 1.0]], Ink::Text));
     chart.curves.extend(many);
     assert!(matches!(plot::svg(&chart, &tiny), Err(PlotError::TooSmall { .. })));
-    assert!(Document::parse(&plot::csv(&chart)).is_err() && plot::csv(&chart).starts_with("item,kind,"));
 }
 
 #[test]
@@ -331,4 +360,46 @@ fn what_cannot_be_drawn_says_what_can() {
     assert!(message(spectrum::chart(&choice)).contains("`IR` is zero from 380 nm to 780 nm"));
     let ultraviolet = reflectance::Item { name: "UV".to_owned(), factor: Factor::Band { from_nm: 200.0, to_nm: 300.0, value: 1.0 } };
     assert!(reflectance::chart("t", &[ultraviolet]).is_ok(), "a band is zero where it is not one, and that is a value");
+}
+
+#[cfg(feature = "cli")]
+fn etendue(folder: &std::path::Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let run = std::process::Command::new(env!("CARGO_BIN_EXE_etendue")).current_dir(folder).args(arguments).output().expect("it starts");
+    (run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned())
+}
+
+#[cfg(feature = "cli")]
+#[test]
+fn the_command_writes_whole_files_and_says_which() {
+    let folder = std::env::temp_dir().join(format!("etendue-plots-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let names = || -> Vec<String> {
+        let mut names: Vec<String> =
+            std::fs::read_dir(&folder).expect("readable").flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    };
+    let failing: [(&[&str], &[&str]); 9] = [
+        (&["plot", "v-lambda", "--out", "plot.gif"], &[".gif", ".svg, .png", "plot.svg"]),
+        (&["plot", "v-lambda", "skotopic"], &["skotopic", "V'(lambda)"]),
+        (&["plot", "konus"], &["konus", "cones"]),
+        (&["plot", "cones", "--age", "19,20"], &["19", "20 yr"]),
+        (&["plot", "spectrum", "D56", "FL99"], &["D56", "D55", "FL99"]),
+        (&["plot", "reflectance", "ColorChecker pink"], &["pink", "ColorChecker"]),
+        (&["plot", "blackbody", "-3"], &["-3", "1 K"]),
+        (&["plot", "cmf", "--size", "10x10"], &["10x10", "slide"]),
+        (&["plot", "spectrum", "D65", "--range", "700,400"], &["700,400", "380,780"]),
+    ];
+    for (arguments, said) in failing {
+        let (code, message) = etendue(&folder, arguments);
+        assert_eq!(code, Some(2), "{arguments:?}: {message}");
+        assert!(said.iter().all(|part| message.contains(part)), "{arguments:?}: {message}");
+    }
+    assert!(names().is_empty(), "{:?}", names());
+    let (code, message) = etendue(&folder, &["plot", "cones", "--age", "20,60", "--csv", "cones.csv"]);
+    assert_eq!((code, message.as_str()), (Some(0), "wrote cones.svg\nwrote cones.csv\n"));
+    assert_eq!(names(), ["cones.csv", "cones.svg"]);
+    let (code, message) = etendue(&folder, &["plot", "cmf", "--out", "nowhere/x.png"]);
+    assert_eq!(code, Some(1), "{message}");
+    std::fs::remove_dir_all(&folder).expect("removable");
 }

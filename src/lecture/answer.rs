@@ -3,7 +3,7 @@
 use super::equation::{Domain, Equation, Given, Input, Unit};
 use super::equations;
 use crate::scene::nearest::{by_distance, nearest, suggestion};
-use crate::scene::{MemoryFiles, spectrum_from_text};
+use crate::scene::{Files, spectrum_from_text};
 use crate::spectrum::Density;
 
 /// Longest wavelength that is taken for a line, nm.
@@ -67,6 +67,8 @@ pub struct Answer {
     pub unit: &'static str,
     /// Other forms of it, finite.
     pub also: Vec<Form>,
+    /// How files were understood: converted units, decimal commas, gaps. To be shown to whoever asked.
+    pub remarks: Vec<String>,
 }
 
 fn quoted(text: &str) -> String {
@@ -94,14 +96,16 @@ struct Understood {
     value: String,
     number: f64,
     spectrum: Option<Density>,
+    remarks: Vec<String>,
 }
 
-/// Computes the equation `name` from its inputs, `(key, value)` as they were typed, in any order.
+/// Computes the equation `name` from its inputs, `(key, value)` as they were typed, in any order. `files` reads
+/// the curve that a spectrum may be; [`MemoryFiles::new()`](crate::scene::MemoryFiles) has none.
 ///
 /// # Errors
 /// Every problem at once: an unknown name or key (with the nearest one), a key that is missing or given twice, a value that is no number
 /// or outside its domain, units of different systems, a result that no number holds.
-pub fn answer(name: &str, given: &[(&str, &str)]) -> Result<Answer, Vec<Problem>> {
+pub fn answer(name: &str, given: &[(&str, &str)], files: &dyn Files) -> Result<Answer, Vec<Problem>> {
     let Some(equation) = equations().find(|equation| equation.name == name) else {
         let names = || equations().map(|equation| equation.name);
         let (close, _) = by_distance(name, names(), 3);
@@ -111,7 +115,7 @@ pub fn answer(name: &str, given: &[(&str, &str)]) -> Result<Answer, Vec<Problem>
         return Err(vec![problem(format!("there is no equation `{}`", quoted(name)), help)]);
     };
     let mut problems = unknown_keys(equation, given);
-    let understood: Vec<Option<Understood>> = equation.inputs.iter().map(|input| understand(input, given, &mut problems)).collect();
+    let understood: Vec<Option<Understood>> = equation.inputs.iter().map(|input| understand(input, given, files, &mut problems)).collect();
     let mut systems: Vec<&'static str> = understood.iter().flatten().map(|u| u.system).filter(|system| !system.is_empty()).collect();
     systems.dedup();
     if systems.len() > 1 {
@@ -132,6 +136,7 @@ pub fn answer(name: &str, given: &[(&str, &str)]) -> Result<Answer, Vec<Problem>
         return Err(vec![problem(message, "give values that are nearer to one")]);
     }
     let [name, symbol, unit] = equation.outcome.words(systems.first().copied().unwrap_or("radiant"));
+    let remarks = understood.iter().flat_map(|u| u.remarks.clone()).collect();
     let inputs = equation.inputs.iter().zip(understood);
     let inputs = inputs.map(|(input, u)| GivenInput {
         key: u.key,
@@ -141,7 +146,7 @@ pub fn answer(name: &str, given: &[(&str, &str)]) -> Result<Answer, Vec<Problem>
         unit: u.unit,
         meaning: input.meaning,
     });
-    Ok(Answer { equation, inputs: inputs.collect(), name, symbol, value, unit, also })
+    Ok(Answer { equation, inputs: inputs.collect(), name, symbol, value, unit, also, remarks })
 }
 
 /// The example as it is typed.
@@ -167,7 +172,7 @@ fn unknown_keys(equation: &Equation, given: &[(&str, &str)]) -> Vec<Problem> {
 }
 
 /// One input out of what was given.
-fn understand(input: &Input, given: &[(&str, &str)], problems: &mut Vec<Problem>) -> Option<Understood> {
+fn understand(input: &Input, given: &[(&str, &str)], files: &dyn Files, problems: &mut Vec<Problem>) -> Option<Understood> {
     let keys = input.keys();
     let found: Vec<_> = keys.iter().filter_map(|k| given.iter().find(|(key, _)| *key == k.0).map(|(_, value)| (k, *value))).collect();
     let names = || keys.iter().map(|(key, ..)| format!("`{key}`")).collect::<Vec<_>>().join(" or ");
@@ -179,14 +184,16 @@ fn understand(input: &Input, given: &[(&str, &str)], problems: &mut Vec<Problem>
         });
         return None;
     };
-    let understood = |value: String, number: f64, spectrum| Some(Understood { key: key.clone(), unit, system, value, number, spectrum });
+    let plain =
+        |value: String, number: f64| Understood { key: key.clone(), unit, system, value, number, spectrum: None, remarks: Vec::new() };
     let number = text.trim().parse::<f64>().ok();
     if input.domain == Domain::Spectrum {
-        return spectrum(key, text.trim(), number, problems).and_then(|(name, density)| understood(name, f64::NAN, Some(density)));
+        let (name, density, remarks) = spectrum(key, text.trim(), number, files, problems)?;
+        return Some(Understood { spectrum: Some(density), remarks, ..plain(name, f64::NAN) });
     }
     let shown_unit = if matches!(input.unit, Unit::Fixed("1")) { String::new() } else { format!(" {unit}") };
     match number {
-        Some(x) if input.domain.contains(x) => understood(text.trim().to_owned(), x, None),
+        Some(x) if input.domain.contains(x) => Some(plain(text.trim().to_owned(), x)),
         Some(_) => {
             let message = format!("`{key}` is {}{shown_unit}: {}", quoted(text.trim()), input.meaning);
             problems.push(problem(message, format!("allowed: {}", input.domain.words())));
@@ -200,18 +207,24 @@ fn understand(input: &Input, given: &[(&str, &str)], problems: &mut Vec<Problem>
     }
 }
 
-/// A spectrum in the grammar of scene files without files (the library opens none), or a line by its wavelength.
-fn spectrum(key: &str, text: &str, number: Option<f64>, problems: &mut Vec<Problem>) -> Option<(String, Density)> {
+/// A spectrum in the grammar of scene files, or a line by its wavelength: its name, itself, and remarks.
+fn spectrum(
+    key: &str,
+    text: &str,
+    number: Option<f64>,
+    files: &dyn Files,
+    problems: &mut Vec<Problem>,
+) -> Option<(String, Density, Vec<String>)> {
     if let Some(nm) = number {
         let line = if nm > LONGEST_NM { None } else { Density::line(nm, 1.0).ok() };
         if line.is_none() {
             let help = format!("allowed: {}; a wavelength is above 0 and up to {LONGEST_NM:e} nm", Domain::Spectrum.words());
             problems.push(problem(format!("`{key}` is {}, a line at no wavelength", quoted(text)), help));
         }
-        return line.map(|line| (format!("line of {text} nm"), line));
+        return line.map(|line| (format!("line of {text} nm"), line, Vec::new()));
     }
-    match spectrum_from_text(text, &MemoryFiles::new()) {
-        Ok(given) => Some((given.name, given.density)),
+    match spectrum_from_text(text, files) {
+        Ok(given) => Some((given.name, given.density, given.remarks)),
         Err(found) => {
             problems.extend(found.0.into_iter().map(|p| {
                 let help = p.help.unwrap_or_else(|| format!("allowed: {}", Domain::Spectrum.words()));

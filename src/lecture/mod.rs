@@ -9,9 +9,9 @@
 //! Every equation is a call of the function of the library that everything else uses; nothing is computed here.
 //!
 //! ```
-//! use etendue::lecture;
+//! use etendue::{lecture, scene::MemoryFiles};
 //!
-//! let answer = lecture::answer("photon-energy", &[("wavelength_nm", "555")]).unwrap();
+//! let answer = lecture::answer("photon-energy", &[("wavelength_nm", "555")], &MemoryFiles::new()).unwrap();
 //! assert_eq!(answer.equation.formula, "Q = h c / λ");
 //! assert_eq!((format!("{:.4e}", answer.value).as_str(), answer.unit), ("3.5792e-19", "J"));
 //! ```

@@ -1,7 +1,13 @@
 //! The catalogue as a whole, and what is said of inputs that cannot be.
 
-use super::*;
+use super::{answer as answer_with, *};
+use crate::scene::MemoryFiles;
 use std::collections::BTreeSet;
+
+fn answer(name: &str, given: &[(&str, &str)]) -> Result<Answer, Vec<Problem>> {
+    let files = MemoryFiles::new().with("lamp.csv", "wavelength_nm;W/nm\n500;1,0\n600;1,0\n");
+    answer_with(name, given, &files)
+}
 
 fn problems(name: &str, given: &[(&str, &str)]) -> Vec<Problem> {
     answer(name, given).expect_err("an answer where there should be problems")
@@ -111,14 +117,14 @@ fn spectra_are_names_or_lines() {
     assert_eq!(of("555").map(|a| a.value), Ok(683.002));
     assert!(of("D65").is_ok());
     assert!(of("BlackBody(2856)").is_ok() && of("Sum([(1, \"A\"), (2, Line(555))])").is_ok());
-    for (spectrum, part) in
-        [("D56", "nearest"), ("-5", "above 0"), ("NaN", "above 0"), ("1e300", "up to"), ("lamp.csv", "no such file"), ("", "")]
-    {
+    for (spectrum, part) in [("D56", "D5"), ("-5", "above 0"), ("NaN", "above 0"), ("1e300", "up to"), ("lump.csv", "lump.csv"), ("", "")] {
         let found = of(spectrum).unwrap_err();
         let all: String = found.iter().map(|p| format!("{} {}\n", p.message, p.help)).collect();
         assert!(all.contains(part), "{spectrum}: {found:?}");
     }
     assert!(of("V").is_err(), "V(λ) is no spectrum");
+    let file = of("lamp.csv").unwrap();
+    assert!(file.value > 0.0 && !file.remarks.is_empty(), "decimal commas are accepted, and said");
     let blind = problems("radiance-to-luminance", &[("radiance_w_m2_sr", "1"), ("spectrum", "1064")]);
     assert!(blind[0].message.contains("sees nothing"), "{blind:?}");
 }

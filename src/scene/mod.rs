@@ -52,6 +52,7 @@ pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};
 pub use instrument_reader::MOST_POSES;
 pub use reader::{read_scene, scene_from_text};
+pub use sensor_reader::sensor_from_file;
 pub use spectrum_argument::{GivenFactor, GivenSpectrum, factor_from_text, spectrum_from_text};
 
 use crate::geometry::shape::Shape;

@@ -156,7 +156,7 @@ impl<'f> Reading<'f> {
     }
 
     /// The document of the scene file itself.
-    pub(super) fn first_document(&mut self, path: &str) -> Option<Document> {
+    pub(super) fn first_document(&mut self, path: &str, what: &str) -> Option<Document> {
         match self.files.read(path, LONGEST_DOCUMENT_BYTES) {
             Ok(bytes) => {
                 self.hash = hashed(self.hash, &bytes);
@@ -175,7 +175,7 @@ impl<'f> Reading<'f> {
                     }
                     FileProblem::Unreadable(_) => None,
                 };
-                self.problems.add(Diagnostic::of_file(path, format!("the scene cannot be read: {problem}"), help));
+                self.problems.add(Diagnostic::of_file(path, format!("the {what} cannot be read: {problem}"), help));
                 None
             }
         }

@@ -268,7 +268,7 @@ fn read_keyed(value: &Value, keys: &[&str], reading: &mut Reading) -> Option<Vec
     let numbers: Vec<Option<f64>> = keys
         .iter()
         .map(|&key| {
-            let found = fields.require(key, "500", &mut reading.problems)?;
+            let found = fields.require(key, if key == "fwhm_nm" { "30" } else { "500" }, &mut reading.problems)?;
             if key == "fwhm_nm" {
                 return found.number_in(
                     "the full width at half maximum",

@@ -3,7 +3,7 @@
 //! * `hatₖ` is 1 at node k and falls linearly to 0 at its neighbours. A table that is linear between the nodes and zero outside is
 //!   `Σ φ(λₖ) hatₖ`, so the sum is exact for it: the result is that of [`Density::integral`](super::Density::integral) to rounding.
 //! * The weights are computed once, on the union of the grid and the breakpoints of the factors; a spectrum then costs one dot product.
-//! * The order of summation is fixed, whatever the processor: 16 partial sums, then pairs. The same numbers give the same bits.
+//! * The order of summation is fixed, whatever the processor: 32 partial sums, then pairs. The same numbers give the same bits.
 
 use multiversion::multiversion;
 
@@ -76,7 +76,7 @@ impl Weights {
 }
 
 /// Partial sums that are carried beside each other.
-const LANES: usize = 16;
+const LANES: usize = 32;
 
 /// `Σ aₖ bₖ` over two slices of the same length.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx2+fma", "x86_64+avx2+fma"))]

@@ -101,8 +101,9 @@ impl Term<'_> {
         const AGREEMENT: f64 = 1e-11;
         // What is this small beside the whole cannot be seen in it.
         const INVISIBLE: f64 = 1e-17;
-        let size: f64 = segments.iter().map(|segment| self.estimate(segment, NODES).1).sum();
-        let mut open: Vec<(Segment, f64, usize)> = segments.iter().map(|segment| (*segment, self.estimate(segment, NODES).0, 0)).collect();
+        let first: Vec<(f64, f64)> = segments.iter().map(|segment| self.estimate(segment, NODES)).collect();
+        let size: f64 = first.iter().map(|estimate| estimate.1).sum();
+        let mut open: Vec<(Segment, f64, usize)> = segments.into_iter().zip(first).map(|(segment, whole)| (segment, whole.0, 0)).collect();
         let mut closed = Vec::with_capacity(open.len());
         while let Some((segment, whole, halvings)) = open.pop() {
             let middle = 0.5 * (segment.from + segment.to);

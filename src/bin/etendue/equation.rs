@@ -3,7 +3,7 @@
 use etendue::lecture::{self, Problem};
 use etendue::report::lecture as report;
 
-use crate::{Failure, print};
+use crate::{Failure, complain, disk, print};
 
 /// Equations of the lecture: list them, or compute one from its inputs.
 #[derive(clap::Args)]
@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return print(&if json { report::json::list() } else { report::list() });
     };
     let (pairs, mut problems) = assignments(&arguments.inputs);
-    let answer = match lecture::answer(name, &pairs) {
+    let answer = match lecture::answer(name, &pairs, &disk::Anywhere) {
         Ok(answer) if problems.is_empty() => answer,
         Ok(_) => return Err(Failure::Input(message(name, &problems))),
         Err(more) => {
@@ -73,5 +73,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             return Err(Failure::Input(message(name, &problems)));
         }
     };
+    for remark in &answer.remarks {
+        complain(&format!("remark: {remark}"));
+    }
     print(&if json { report::json::answer(&answer) } else { report::answer(&answer) })
 }

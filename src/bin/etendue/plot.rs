@@ -1,6 +1,8 @@
 //! `etendue plot KIND`: pictures in SVG and PNG.
 
+mod chromaticity;
 mod output;
+mod sensor;
 
 use std::path::Path;
 
@@ -36,6 +38,10 @@ enum Kind {
     Reflectance(Reflectance),
     /// Black bodies, both axes logarithmic.
     Blackbody(Blackbody),
+    /// Chromaticity diagram: spectral, Planckian and daylight loci, white points, any spectra, gamuts of displays.
+    Chromaticity(chromaticity::Arguments),
+    /// Spectral responsivity and directional response of sensors.
+    Sensor(sensor::Arguments),
 }
 
 #[derive(clap::Args)]
@@ -178,13 +184,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Kind::Spectrum(given) => given.output.draw("spectrum", || given.chart()),
         Kind::Reflectance(given) => given.output.draw("reflectance", || given.chart()),
         Kind::Blackbody(given) => given.output.draw("blackbody", || given.chart()),
+        Kind::Chromaticity(given) => given.output.draw("chromaticity", || given.chart()),
+        Kind::Sensor(given) => given.output.draw("sensor", || given.chart()),
     }
 }
 
 impl VLambda {
     fn chart(&self) -> Result<Chart, Failure> {
         let usual = plot::v_lambda::Choice::default();
-        let functions = all(&self.functions, |name| observer::Efficiency::named(name))?;
+        let functions = all(&self.functions, observer::Efficiency::named)?;
         let (functions, mesopic) = match (functions.is_empty() && self.mesopic.is_none(), &self.mesopic) {
             (true, _) => (usual.functions, usual.mesopic),
             (false, mesopic) => (functions, mesopic.clone().unwrap_or_default()),
@@ -313,7 +321,11 @@ fn all<T, E: std::fmt::Display>(names: &[String], meant: impl Fn(&str) -> Result
     for name in names {
         match meant(name) {
             Ok(one) => found.push(one),
-            Err(problem) => problems.push(format!("error: {problem}")),
+            Err(problem) => {
+                let problem = problem.to_string();
+                // Diagnostics of files say so themselves.
+                problems.push(if problem.starts_with("error") { problem } else { format!("error: {problem}") });
+            }
         }
     }
     if problems.is_empty() { Ok(found) } else { Err(Failure::Input(problems.join("\n"))) }

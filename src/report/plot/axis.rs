@@ -60,7 +60,7 @@ fn linear(from: f64, to: f64, wanted: usize) -> Vec<Tick> {
 /// All labels with the same number of decimals; powers of ten where plain digits would be many.
 fn common_labels(values: &[f64], step: f64) -> Vec<String> {
     let largest = values.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
-    if largest < 1e5 && largest >= 1e-3 {
+    if (1e-3..1e5).contains(&largest) {
         let decimals = (0..9)
             .find(|d| {
                 let scaled = step * 10f64.powi(*d);

@@ -5,6 +5,7 @@
 //! | `title`, `subtitle` | two lines of text above |
 //! | `x`, `y` | hair grid, tick labels, quantity and unit; linear or logarithmic |
 //! | `spans` | ranges of x shaded over the whole height, such as the visible band |
+//! | `shade` | an area coloured point by point, behind everything but the grid |
 //! | `areas` | filled polygons, at the very back |
 //! | `bands` | uncertainty between two curves |
 //! | `curves` | lines with a label at the curve itself |
@@ -35,6 +36,8 @@ pub struct Chart {
     pub strip: Vec<Stop>,
     /// Ranges of x.
     pub spans: Vec<Span>,
+    /// An area coloured point by point.
+    pub shade: Option<Shade>,
     /// Filled polygons.
     pub areas: Vec<Area>,
     /// Bands between two curves.
@@ -65,6 +68,7 @@ impl Chart {
             proportion: None,
             strip: Vec::new(),
             spans: Vec::new(),
+            shade: None,
             areas: Vec::new(),
             bands: Vec::new(),
             curves: Vec::new(),
@@ -131,6 +135,10 @@ pub enum Ink {
     Text,
     /// The colour of what stands behind: references, minor text.
     Muted,
+    /// The colour of the grid: names may stand on such a line.
+    Grid,
+    /// The colour of text and lines on a shade, dark in both themes.
+    OnShade,
     /// A colour of its own, sRGB.
     Fixed([u8; 3]),
 }
@@ -190,6 +198,11 @@ impl Curve {
     /// The same line, thin and muted, as a reference behind the others.
     pub fn behind(self) -> Self {
         Self { ink: Ink::Muted, width: 0.6, ..self }
+    }
+
+    /// The same line, named in the table of numbers only.
+    pub fn unwritten(self) -> Self {
+        Self { written: Some(String::new()), ..self }
     }
 
     /// The same line, dashed or dotted.
@@ -260,6 +273,8 @@ pub struct Point {
     pub ink: Ink,
     /// Radius as a multiple of the style's.
     pub radius: f64,
+    /// Whether its name is written beside it, where there is room; it stands in the table of numbers in any case.
+    pub written: bool,
 }
 
 /// Which point of a text stands at its place.
@@ -308,4 +323,24 @@ pub struct Span {
     pub from: f64,
     /// Right end.
     pub to: f64,
+}
+
+/// An area coloured point by point: rows of horizontal gradients inside an outline.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shade {
+    /// Corners of the outline, in order.
+    pub outline: Vec<[f64; 2]>,
+    /// Rows that together cover it.
+    pub rows: Vec<ShadeRow>,
+}
+
+/// Colours along x between two heights.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShadeRow {
+    /// Lower end.
+    pub from: f64,
+    /// Upper end.
+    pub to: f64,
+    /// Colours, rising in x.
+    pub stops: Vec<Stop>,
 }

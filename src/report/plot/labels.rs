@@ -17,6 +17,8 @@ pub(super) struct Request {
     pub(super) own: usize,
     /// How far its box keeps from what it names, px.
     pub(super) clear: f64,
+    /// Whether a leader may cross other lines.
+    pub(super) may_cross: bool,
 }
 
 /// Something no label may cover, px.
@@ -145,11 +147,11 @@ impl Site<'_> {
             for line in &self.request.lines {
                 let walk = walked(line, 2.0 * self.all.cell);
                 let Some(peak) = walk.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1])) else { continue };
-                let favoured = [(peak, 0.0), (walk[walk.len() - 1], 0.05), (walk[0], 0.1)];
+                let ends = [(walk[walk.len() - 1], 0.05), (walk[0], 0.1)];
                 for anchor in &walk {
                     let from = |place: [f64; 2]| (anchor[0] - place[0]).hypot(anchor[1] - place[1]) / self.frame.width();
-                    let favour = favoured.iter().map(|(place, extra)| from(*place) + extra).fold(f64::INFINITY, f64::min);
-                    self.around(*anchor, favour, far, &mut found);
+                    let by_end = ends.iter().map(|(place, extra)| from(*place) + extra).fold(f64::INFINITY, f64::min);
+                    self.around(*anchor, [from(peak), by_end], far, &mut found);
                 }
             }
         }
@@ -157,14 +159,17 @@ impl Site<'_> {
         found
     }
 
-    /// Places around one point of the line, near or at the end of a leader.
-    fn around(&self, anchor: [f64; 2], favour: f64, far: bool, found: &mut Vec<Candidate>) {
+    /// Places around one point of the line, near or at the end of a leader. The point is so far from the peak of the line and from its
+    /// ends, in widths of the frame.
+    fn around(&self, anchor: [f64; 2], [by_peak, by_end]: [f64; 2], far: bool, found: &mut Vec<Candidate>) {
         let (em, [width, height]) = (self.em, self.request.size);
         let alone = Rectangle { left: anchor[0], top: anchor[1], right: anchor[0], bottom: anchor[1] }.grown(0.4 * em);
         let shared = self.others.within(&alone) > 0;
         if far && shared {
             return;
         }
+        // Where all lines run together at an end, a label says nothing; near the peak it at least says where.
+        let favour = if shared { SHARED + by_peak } else { by_peak.min(by_end) };
         let gaps: &[f64] = if far { &[1.6, 2.4, 3.4, 4.6] } else { &[0.0, 0.25, 0.55, 0.95] };
         for (ring, gap) in gaps.iter().enumerate() {
             let gap = self.request.clear + gap * em;
@@ -183,7 +188,7 @@ impl Site<'_> {
                 let near = f64::from(self.others.within(&area.grown(0.45 * em)).min(40)) / 40.0;
                 let around = f64::from(self.others.within(&area.grown(1.1 * em)).min(80)) / 80.0;
                 let below = if dy > 0.0 { 0.06 } else { 0.0 };
-                let mut cost = favour + 0.12 * ring as f64 + 0.9 * near + 0.5 * around + below + if shared { SHARED } else { 0.0 };
+                let mut cost = favour + 0.12 * ring as f64 + 0.9 * near + 0.5 * around + below;
                 let leader = far.then(|| {
                     // From the line to the side of the box, with a little air at the text.
                     let end = |d: f64| reach - if d == 0.0 { 0.0 } else { 0.25 * em };
@@ -192,7 +197,7 @@ impl Site<'_> {
                 if let Some(line) = leader {
                     let met = walked(&line, self.all.cell).iter().filter(|p| self.others.within(&point_box(p)) > 0).count();
                     cost += 0.8 + 0.1 * met as f64;
-                    if self.texts.iter().any(|text| crosses(&line, text)) {
+                    if (met > 0 && !self.request.may_cross) || self.texts.iter().any(|text| crosses(&line, text)) {
                         continue;
                     }
                 }
@@ -227,7 +232,7 @@ mod tests {
             }).collect();
             let obstacles: Vec<Obstacle> = lines.iter().map(|line| Obstacle { lines: vec![line.clone()], half_width: 1.0 }).collect();
             let requests: Vec<Request> = curves.iter().enumerate().map(|(own, curve)| {
-                Request { size: [curve.3, 10.0], lines: vec![lines[own].clone()], own, clear: 4.0 }
+                Request { size: [curve.3, 10.0], lines: vec![lines[own].clone()], own, clear: 4.0, may_cross: true }
             }).collect();
             let placed = place(&requests, &obstacles, &[], &FRAME, 12.0);
             for (index, area) in placed.iter().enumerate() {

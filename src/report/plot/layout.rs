@@ -78,8 +78,10 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
-    fn write(&mut self, text: &str, x: f64, baseline: f64, size_px: f64, weight: Weight, anchor: Anchor, colour: [u8; 3]) {
-        self.texts.push(Written { text: text.to_owned(), x, baseline, size_px, weight, anchor, colour });
+    /// Small text around the frame.
+    fn write(&mut self, text: &str, [x, baseline]: [f64; 2], anchor: Anchor, colour: [u8; 3]) {
+        let size_px = SMALL * self.look.text_px;
+        self.texts.push(Written { text: text.to_owned(), x, baseline, size_px, weight: Weight::Regular, anchor, colour });
     }
 
     /// Lines of running text from the left margin; the new lower end.
@@ -87,7 +89,15 @@ impl Page<'_> {
         let mut below = below;
         for line in self.ruler.lines(text, weight, size_px, self.look.width - 2.0 * margin) {
             below += 1.25 * size_px;
-            self.write(&line, margin, below - 0.3 * size_px, size_px, weight, Anchor::Start, colour);
+            self.texts.push(Written {
+                text: line,
+                x: margin,
+                baseline: below - 0.3 * size_px,
+                size_px,
+                weight,
+                anchor: Anchor::Start,
+                colour,
+            });
         }
         below
     }
@@ -123,7 +133,7 @@ pub(super) fn layout(chart: &Chart, look: &Look, ruler: &Ruler, legend: bool) ->
     }
     for key in &chart.keys {
         keys.push([key_left, keys_baseline - 0.5 * CAP_EM * small]);
-        page.write(&key.text, key_left + key_sample_px + 0.5 * em, keys_baseline, small, Weight::Regular, Anchor::Start, look.text);
+        page.write(&key.text, [key_left + key_sample_px + 0.5 * em, keys_baseline], Anchor::Start, look.text);
         key_left += key_width(&key.text) + 1.4 * em;
     }
 
@@ -134,7 +144,7 @@ pub(super) fn layout(chart: &Chart, look: &Look, ruler: &Ruler, legend: bool) ->
     }
 
     // The legend at the right if it leaves most of the width, else below.
-    let rows: Vec<usize> = (0..chart.curves.len()).filter(|i| legend && !chart.curves[*i].label.is_empty()).collect();
+    let rows: Vec<usize> = (0..chart.curves.len()).filter(|i| legend && !chart.curves[*i].text().is_empty()).collect();
     let sample_px = 1.6 * em;
     let widest = rows.iter().map(|i| ruler.width(&chart.curves[*i].label, Weight::Regular, small)).fold(0.0, f64::max);
     let (cell_width, cell_height) = (widest + sample_px + 1.6 * em, 1.32 * small);
@@ -188,28 +198,28 @@ pub(super) fn layout(chart: &Chart, look: &Look, ruler: &Ruler, legend: bool) ->
         let (width, at) = (ruler.width(&tick.label, Weight::Regular, small), left + axis::place(&chart.x, tick.value) * frame.width());
         // A label at the very end moves in as far as the edge of the picture demands.
         let at = at.clamp(0.3 * em + 0.5 * width, look.width - 0.3 * em - 0.5 * width);
-        page.write(&tick.label, at, below + 0.5 * em + CAP_EM * small, small, Weight::Regular, Anchor::Middle, look.muted);
+        page.write(&tick.label, [at, below + 0.5 * em + CAP_EM * small], Anchor::Middle, look.muted);
     }
     if named(&chart.x) {
         let baseline = below + 0.4 * em + 1.5 * small + 1.05 * small;
         let half = 0.5 * ruler.width(&chart.x.name(), Weight::Regular, small);
         let middle = (0.5 * (left + right)).clamp(half + 0.5 * margin, (look.width - half - 0.5 * margin).max(half + 0.5 * margin));
-        page.write(&chart.x.name(), middle, baseline, small, Weight::Regular, Anchor::Middle, look.text);
+        page.write(&chart.x.name(), [middle, baseline], Anchor::Middle, look.text);
     }
     for tick in &y_ticks {
         let at = bottom - axis::place(&chart.y, tick.value) * frame.height();
-        page.write(&tick.label, left - 0.6 * em, at + 0.5 * CAP_EM * small, small, Weight::Regular, Anchor::End, look.muted);
+        page.write(&tick.label, [left - 0.6 * em, at + 0.5 * CAP_EM * small], Anchor::End, look.muted);
     }
     if named(&chart.y) {
-        page.write(&chart.y.name(), margin, name_baseline, small, Weight::Regular, Anchor::Start, look.text);
+        page.write(&chart.y.name(), [margin, name_baseline], Anchor::Start, look.text);
     }
     if let Some(power) = &chart.impulse_axis {
         for tick in &power_ticks {
             let at = bottom - axis::place(power, tick.value) * frame.height();
-            page.write(&tick.label, right + 0.6 * em, at + 0.5 * CAP_EM * small, small, Weight::Regular, Anchor::Start, look.muted);
+            page.write(&tick.label, [right + 0.6 * em, at + 0.5 * CAP_EM * small], Anchor::Start, look.muted);
         }
         let end = look.width - margin;
-        page.write(&power.name(), end, name_baseline, small, Weight::Regular, Anchor::End, look.text);
+        page.write(&power.name(), [end, name_baseline], Anchor::End, look.text);
     }
 
     let legend = rows.iter().enumerate().map(|(row, curve)| {

@@ -15,8 +15,11 @@
 //! | `layout` | places of frame, texts, legend |
 //! | `labels` | names beside the curves, where there is room |
 //! | `canvas` | lines and areas through plotters |
+//! | `shade` | areas coloured point by point |
 //! | `svg`, `png`, `table` | the documents |
+//! | `chromaticity` | spectral, Planckian and daylight loci, white points, gamuts |
 //! | `sample` | points of a function, colours along an axis |
+//! | `sensor`, `polar` | responsivity and directional response of sensors |
 //! | `wavelength_colour` | colours of wavelengths, smooth to the eye |
 //! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody` | a plot each |
 //!
@@ -33,6 +36,7 @@ mod axis;
 pub mod blackbody;
 mod canvas;
 pub mod chart;
+pub mod chromaticity;
 pub mod cmf;
 pub mod cones;
 mod error;
@@ -40,9 +44,12 @@ mod labels;
 mod layout;
 pub mod pigments;
 mod png;
+pub mod polar;
 mod polyline;
 pub mod reflectance;
 mod sample;
+pub mod sensor;
+mod shade;
 pub mod spectrum;
 mod style;
 mod svg;

@@ -106,6 +106,12 @@ pub(super) fn polygon_in(points: &[[f64; 2]], frame: &Rectangle) -> Vec<[f64; 2]
     polygon
 }
 
+/// Whether a point lies inside a closed polygon (crossings of a ray to the right).
+pub(super) fn is_inside(polygon: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
+    sides.filter(|(a, b)| (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])).count() % 2 == 1
+}
+
 /// Fewer points, none of the line further than `tolerance` from where it was (Douglas and Peucker 1973). Ends stay.
 pub(super) fn thinned(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let mut keep = vec![false; points.len()];

@@ -4,6 +4,7 @@
 //! the unit of the left one times nm.
 
 use crate::spectrum::Density;
+use crate::spectrum::library::RELATIVE;
 
 use super::PlotError;
 use super::chart::{Axis, Chart, Curve, Impulse, Ink, Under};
@@ -99,11 +100,15 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
     }
     let names: Vec<&str> = items.iter().map(|item| item.name.as_str()).collect();
     let title = if names.len() == 1 { names[0].to_owned() } else { "Spectral distributions".to_owned() };
-    let given = if choice.unit.is_empty() { "unit as given, per nm".to_owned() } else { choice.unit.clone() };
+    let given = match choice.unit.as_str() {
+        "" => "unit as given, per nm",
+        RELATIVE => "relative, per nm",
+        unit => unit,
+    };
     let (unit, subtitle) = match scaling {
         Scaling::Peak => ("peak = 1".to_owned(), "each relative to its largest value"),
         Scaling::At560Nm => ("560 nm = 1".to_owned(), "each relative to its value at 560 nm"),
-        Scaling::AsGiven => (given.clone(), "as given"),
+        Scaling::AsGiven => (given.to_owned(), "as given"),
     };
     let subtitle = if names.len() == 1 { subtitle.replace("each ", "") } else { format!("{}; {subtitle}", names.join(", ")) };
     let x = Axis::linear("Wavelength λ", "nm", *from_nm, *to_nm);
@@ -111,7 +116,8 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
     let strongest = impulses.iter().map(|impulse: &Impulse| impulse.height).fold(0.0, f64::max);
     let power_unit = match scaling {
         Scaling::AsGiven if choice.unit.is_empty() => "unit as given".to_owned(),
-        Scaling::AsGiven => format!("({}) · nm", choice.unit),
+        Scaling::AsGiven if choice.unit == RELATIVE => "relative".to_owned(),
+        Scaling::AsGiven => line_unit(&choice.unit),
         _ if chart_curves.is_empty() => "strongest = 1".to_owned(),
         _ => "nm · unit of the left axis".to_owned(),
     };
@@ -124,6 +130,12 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
     };
     let subtitle = capitalised(&subtitle);
     Ok(Chart { curves: chart_curves, impulses, impulse_axis, strip: strip(*from_nm, *to_nm), ..Chart::new(&title, &subtitle, x, y) })
+}
+
+/// The unit of a line from that of the continuum, which is per nm.
+fn line_unit(unit: &str) -> String {
+    let bare = ["/nm", " nm⁻¹", "·nm⁻¹"].iter().find_map(|end| unit.strip_suffix(end));
+    bare.map_or_else(|| format!("({unit}) · nm"), str::to_owned)
 }
 
 /// A wavelength with at most two decimals.

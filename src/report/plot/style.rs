@@ -7,8 +7,7 @@
 //! | `Slide` | 1280 px × 720 px | 20 px |
 //! | `Custom` | as asked | grows with the square root of the area |
 //!
-//! Lengths are in px of 1/96 inch. The palette keeps its order of lightness for the colour-blind: hues that are confused differ in
-//! lightness.
+//! Lengths are in px of 1/96 inch. The palette was sought by computer: hues that the colour-blind confuse differ in lightness.
 
 use super::chart::Ink;
 
@@ -53,9 +52,9 @@ pub struct Style {
 
 /// Eight colours for lines and text, told apart by the colour-blind as well.
 const LIGHT: [[u8; 3]; 8] =
-    [[0, 95, 168], [201, 72, 0], [0, 125, 97], [138, 58, 150], [160, 110, 0], [30, 145, 200], [90, 98, 114], [176, 28, 88]];
+    [[30, 64, 123], [204, 66, 18], [81, 137, 96], [157, 87, 230], [76, 46, 2], [0, 156, 197], [45, 55, 43], [133, 67, 94]];
 const DARK: [[u8; 3]; 8] =
-    [[92, 172, 240], [255, 138, 76], [56, 198, 158], [206, 140, 220], [230, 184, 60], [140, 214, 250], [170, 178, 192], [250, 122, 164]];
+    [[32, 134, 255], [218, 114, 37], [181, 247, 197], [186, 110, 176], [253, 225, 18], [80, 209, 254], [172, 176, 173], [250, 68, 98]];
 
 /// Colours and lengths of a style, px.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,6 +78,8 @@ pub(super) struct Look {
     /// Width of a line of the grid.
     pub(super) hair_px: f64,
     pub(super) tint: f64,
+    /// Opacity of an area coloured point by point: so that the grid and, in print, dark lines show on it.
+    pub(super) shade: f64,
 }
 
 impl Style {
@@ -119,6 +120,7 @@ impl Style {
             title_px: 1.3 * text_px,
             line_px: 0.14 * text_px,
             hair_px: 0.07 * text_px,
+            shade: if dark { 0.9 } else { 0.8 },
             tint: if dark { 0.16 } else { 0.10 },
         }
     }
@@ -131,6 +133,8 @@ impl Look {
             Ink::Palette(index) => self.palette[index % self.palette.len()],
             Ink::Text => self.text,
             Ink::Muted => self.muted,
+            Ink::Grid => self.grid,
+            Ink::OnShade => [24, 26, 32],
             Ink::Fixed(colour) => colour,
         }
     }
@@ -162,4 +166,64 @@ pub(super) fn contrast(a: [u8; 3], b: [u8; 3]) -> f64 {
 /// `#rrggbb`.
 pub(super) fn hex(colour: [u8; 3]) -> String {
     format!("#{:02X}{:02X}{:02X}", colour[0], colour[1], colour[2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Matrix = [[f64; 3]; 3];
+
+    /// What the colour-blind see of linear sRGB: nobody, protanopes, deuteranopes, tritanopes (Machado, Oliveira and Fernandes 2009).
+    const SEEN: [Matrix; 4] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+    ];
+    const SRGB_TO_XYZ: Matrix = [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]];
+
+    fn times(m: &Matrix, v: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|i| m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2])
+    }
+
+    /// CIELAB of an sRGB colour as it is seen.
+    fn lab(colour: [u8; 3], seen: &Matrix) -> [f64; 3] {
+        let linear = colour.map(|byte| {
+            let value = f64::from(byte) / 255.0;
+            if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+        });
+        let [x, y, z] = times(&SRGB_TO_XYZ, times(seen, linear).map(|part| part.clamp(0.0, 1.0)));
+        let f = |t: f64| if t > 216.0 / 24389.0 { t.cbrt() } else { (24389.0 / 27.0 * t + 16.0) / 116.0 };
+        let (x, y, z) = (f(x / 0.950_47), f(y), f(z / 1.088_83));
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    #[test]
+    fn the_colours_of_the_palette_are_told_apart_by_everyone() {
+        for palette in [LIGHT, DARK] {
+            for (index, one) in palette.iter().enumerate() {
+                for other in &palette[index + 1..] {
+                    for seen in &SEEN {
+                        let (a, b) = (lab(*one, seen), lab(*other, seen));
+                        let difference = (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2]);
+                        assert!(difference > 14.0, "{one:?} {other:?}: {difference:.1}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lines_and_letters_stand_out_from_the_background() {
+        for theme in [Theme::Light, Theme::Dark] {
+            let look = Style { theme, size: Size::Paper }.look(None);
+            for ink in (0..8).map(Ink::Palette) {
+                assert!(contrast(look.colour(ink), look.background) >= 3.0, "{theme:?} {ink:?}");
+            }
+            for colour in [look.text, look.muted] {
+                assert!(contrast(colour, look.background) >= 4.5, "{theme:?} {colour:?}");
+            }
+        }
+    }
 }

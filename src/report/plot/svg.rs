@@ -6,7 +6,8 @@ use super::chart::{Anchor, Axis, Chart, Curve, Dash, Ink, Under};
 use super::error::PlotError;
 use super::labels::{self, Obstacle, Placed, Request};
 use super::layout::{self, KEY_SAMPLE_EM, Layout};
-use super::polyline::{Rectangle, pieces, polygon_in, thinned};
+use super::polyline::{Rectangle, is_inside, pieces, polygon_in, thinned};
+use super::shade;
 use super::style::{Look, Size, Style};
 use super::text::{CAP_EM, DESCENT_EM, FAMILY, Ruler, Weight, Written, escaped, number, plain};
 
@@ -83,8 +84,10 @@ fn impulse_line(chart: &Chart, frame: &Rectangle, x: f64, height: f64) -> Vec<Ve
 
 /// Everything a label has to keep clear of: curves, impulses, points; in this order.
 fn obstacles(chart: &Chart, look: &Look, frame: &Rectangle) -> Vec<Obstacle> {
-    let curves =
-        chart.curves.iter().map(|c| Obstacle { lines: lines_of(chart, frame, &c.points), half_width: 0.5 * look.line_px * c.width });
+    let curves = chart.curves.iter().map(|c| {
+        let lines = if c.ink == Ink::Grid { Vec::new() } else { lines_of(chart, frame, &c.points) };
+        Obstacle { lines, half_width: 0.5 * look.line_px * c.width }
+    });
     let impulses =
         chart.impulses.iter().map(|i| Obstacle { lines: impulse_line(chart, frame, i.x, i.height), half_width: 0.5 * look.line_px });
     let points = chart.points.iter().map(|p| {
@@ -161,7 +164,7 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
     let mut wanted = Vec::new();
     for (own, curve) in chart.curves.iter().enumerate() {
         if curves && !curve.text().is_empty() && !obstacles[own].lines.is_empty() {
-            let request = Request { size: size(curve.text()), lines: obstacles[own].lines.clone(), own, clear: 0.45 * em };
+            let request = Request { size: size(curve.text()), lines: obstacles[own].lines.clone(), own, clear: 0.45 * em, may_cross: true };
             wanted.push(Wanted { text: curve.text().to_owned(), ink: look.readable(curve.ink), request, needed: true });
         }
     }
@@ -170,15 +173,15 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
         // Only the head: a name half-way up would be taken for a place on the wavelength axis.
         let head = obstacles[own].lines.iter().flatten().copied().min_by(|a, b| a[1].total_cmp(&b[1]));
         if let (false, Some(head)) = (impulse.label.is_empty(), head) {
-            let request = Request { size: size(&impulse.label), lines: vec![vec![head]], own, clear: 0.45 * em };
+            let request = Request { size: size(&impulse.label), lines: vec![vec![head]], own, clear: 0.45 * em, may_cross: false };
             wanted.push(Wanted { text: impulse.label.clone(), ink: Ink::Text, request, needed: false });
         }
     }
     for (index, point) in chart.points.iter().enumerate() {
         let own = chart.curves.len() + chart.impulses.len() + index;
-        if !point.label.is_empty() {
+        if point.written && !point.label.is_empty() {
             let clear = radius_px(look, point.radius) + 0.3 * em;
-            let request = Request { size: size(&point.label), lines: obstacles[own].lines.clone(), own, clear };
+            let request = Request { size: size(&point.label), lines: obstacles[own].lines.clone(), own, clear, may_cross: false };
             wanted.push(Wanted { text: point.label.clone(), ink: Ink::Text, request, needed: false });
         }
     }
@@ -203,6 +206,7 @@ fn labels_of(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout, curves:
     let requests: Vec<Request> = wanted.iter().map(|wanted| wanted.request.clone()).collect();
     let placed = labels::place(&requests, &obstacles, &fixed, &layout.frame, em);
     let mut labels = Labels::default();
+    let shade = chart.shade.as_ref().map(|shade| on_page(chart, &layout.frame, &shade.outline));
     for (wanted, area) in wanted.iter().zip(placed) {
         let Some(Placed { area, leader }) = area else {
             if wanted.needed {
@@ -211,9 +215,11 @@ fn labels_of(chart: &Chart, look: &Look, ruler: &Ruler, layout: &Layout, curves:
             continue;
         };
         let baseline = area.bottom - DESCENT_EM * em;
-        let colour = look.colour(wanted.ink);
+        let middle = [0.5 * (area.left + area.right), 0.5 * (area.top + area.bottom)];
+        let on_shade = wanted.ink == Ink::Text && shade.as_ref().is_some_and(|outline| is_inside(outline, middle));
+        let colour = look.colour(if on_shade { Ink::OnShade } else { wanted.ink });
         if let Some(line) = leader {
-            labels.leaders.push((line, look.colour(wanted.ink)));
+            labels.leaders.push((line, colour));
         }
         labels.texts.push(Written {
             text: wanted.text.clone(),
@@ -243,6 +249,9 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &Labels) -> Res
     let strip_name = gradient_name(chart);
     canvas.rectangle(&Rectangle { left: 0.0, top: 0.0, right: look.width, bottom: look.height }, Paint::Plain(look.background), 1.0)?;
     behind(chart, look, layout, &mut canvas)?;
+    if let Some(shade) = &chart.shade {
+        canvas.elements += &shade::svg(shade, &strip_name, look.shade, frame, |point| place(chart, frame, point));
+    }
     for area in &chart.areas {
         let polygon = polygon_in(&on_page(chart, frame, &area.points), frame);
         canvas.area(&thinned(&polygon, THINNING_PX), Paint::Plain(look.colour(area.ink)), area.opacity)?;
@@ -274,7 +283,7 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &Labels) -> Res
     }
     // What is muted stands behind.
     for muted in [true, false] {
-        for curve in chart.curves.iter().filter(|curve| (curve.ink == Ink::Muted) == muted) {
+        for curve in chart.curves.iter().filter(|curve| matches!(curve.ink, Ink::Muted | Ink::Grid) == muted) {
             let lines = lines_of(chart, frame, &curve.points);
             stroke(&mut canvas, look, &lines, curve, look.line_px * curve.width)?;
         }
@@ -289,7 +298,8 @@ fn document(chart: &Chart, look: &Look, layout: &Layout, labels: &Labels) -> Res
     for point in &chart.points {
         let at = place(chart, frame, point.at);
         if frame.grown(1.0).holds(&Rectangle { left: at[0], right: at[0], top: at[1], bottom: at[1] }) {
-            canvas.disc(at, radius_px(look, point.radius) + 0.1 * look.text_px, look.background)?;
+            let rim = if chart.shade.is_some() { [255, 255, 255] } else { look.background };
+            canvas.disc(at, radius_px(look, point.radius) + 0.1 * look.text_px, rim)?;
             canvas.disc(at, radius_px(look, point.radius), look.colour(point.ink))?;
         }
     }

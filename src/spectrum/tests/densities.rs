@@ -86,8 +86,8 @@ proptest! {
         }
         // The formula as it is printed.
         let w = LED_WIDTH_OVER_FWHM * fwhm;
-        for t in [0.1, 0.3, 1.0, 2.0] {
-            let g = (-((t * fwhm / w) as f64).powi(2)).exp();
+        for t in [0.1, 0.3, 1.0, 2.0_f64] {
+            let g = (-(t * fwhm / w).powi(2)).exp();
             let printed = (g + 2.0 * g.powi(5)) / 3.0;
             prop_assert!((led.continuum_at(peak + t * fwhm) / top / printed - 1.0).abs() < 1e-8);
         }

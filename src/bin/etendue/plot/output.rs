@@ -77,6 +77,11 @@ impl Format {
 }
 
 impl Output {
+    /// The size of the picture.
+    pub(super) fn size(&self) -> Size {
+        self.size
+    }
+
     /// Draws a chart into its file and says which. A place that cannot be used is told before anything is computed.
     pub(super) fn draw(&self, kind: &str, chart: impl Fn() -> Result<Chart, Failure>) -> Result<(), Failure> {
         let target = self.out.clone().unwrap_or_else(|| PathBuf::from(format!("{kind}.svg")));
