@@ -51,6 +51,7 @@
 //! |---|---|---|---|
 //! | 0 | [`quantity`] | the lecture's table of quantities and systems as types, constants, unit names | spectra, scenes |
 //! | 0 | [`metrology`] | accumulators that merge, budgets, coverage, rounding | light, random numbers |
+//! | 0 | [`naming`] | which of the allowed names was meant | what they name |
 //! | 0 | [`math`] | vectors, frames, samplers as triples, random streams | units |
 //! | 1 | [`spectrum`] | functions of wavelength, lines, exact product integrals, spectral quadrature, tables | what a curve means |
 //! | 1 | [`geometry`] | shapes, rays, meshes, acceleration | materials, emission |
@@ -93,6 +94,7 @@ pub mod lecture;
 pub mod math;
 pub mod measurement;
 pub mod metrology;
+pub mod naming;
 pub mod observer;
 pub mod plan;
 pub mod quantity;

@@ -2,7 +2,7 @@
 
 use super::equation::{Domain, Equation, Given, Input, Unit};
 use super::equations;
-use crate::scene::nearest::{by_distance, nearest, suggestion};
+use crate::naming::{by_distance, nearest, suggestion};
 use crate::scene::{Files, spectrum_from_text};
 use crate::spectrum::Density;
 

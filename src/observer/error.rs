@@ -1,12 +1,13 @@
 //! What can be wrong with a question to an observer.
 
+use crate::naming::suggestion;
 use crate::spectrum::SpectrumError;
 
 /// A name, an age, a field, a luminance that no observer answers to.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ObserverError {
     /// No observer of this kind has this name.
-    #[error("there is no {what} called `{name}`; allowed: {}", allowed.join(", "))]
+    #[error("there is no {what} called `{name}`; {}", suggestion(name, allowed))]
     Unknown {
         /// The kind that was asked for, such as "luminous efficiency function".
         what: &'static str,

@@ -6,8 +6,8 @@ use std::ops::Range;
 
 use super::diagnostic::{Diagnostic, Problems};
 use super::document::{Body, Document, Field, Kind, Node};
-use super::nearest::{nearest, suggestion};
 use crate::math::DVec3;
+use crate::naming::{nearest, suggestion};
 
 /// Largest and smallest length that is taken for a length, m.
 pub(super) const LARGEST_M: f64 = 1e33;

@@ -30,7 +30,6 @@ pub mod instrument;
 mod instrument_reader;
 pub mod mesh_file;
 mod mesh_reader;
-pub(crate) mod nearest;
 mod object_reader;
 mod observer_reader;
 mod placement;

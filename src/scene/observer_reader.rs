@@ -20,8 +20,8 @@
 use super::channel_reader::{read_of, scotopic_illuminance, weighted};
 use super::decode::{Fields, Value};
 use super::document::{Body, Kind};
-use super::nearest::{same, suggestion};
 use super::reading::Reading;
+use crate::naming::{same, suggestion};
 use crate::observer::{AlphaOpic, Cone, Cones, Efficiency, Individual, Matching, ObserverError};
 use crate::quantity::measurand::Measurand;
 use crate::sensor::{Acceptance, Channel};

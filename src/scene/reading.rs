@@ -7,8 +7,8 @@ use super::decode::Value;
 use super::diagnostic::{Diagnostic, Problems};
 use super::document::Document;
 use super::files::{FileProblem, Files, LONGEST_DOCUMENT_BYTES, MOST_BYTES, hashed, resolved};
-use super::nearest::{by_distance, nearest};
 use crate::geometry::mesh::Mesh;
+use crate::naming::{by_distance, nearest};
 use crate::sensor::Sensor;
 use crate::spectrum::file::{CurveFile, Meaning};
 

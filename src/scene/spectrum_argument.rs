@@ -12,9 +12,9 @@ use super::decode::Value;
 use super::diagnostic::Diagnostics;
 use super::document::{Document, Kind};
 use super::files::Files;
-use super::nearest::nearest;
 use super::reading::Reading;
 use super::spectrum_reader::{FACTORS, SPECTRA, is_file, read_factor, read_spectrum};
+use crate::naming::nearest;
 use crate::spectrum::file::{CurveFile, Meaning};
 use crate::spectrum::{Density, Factor, Outside};
 

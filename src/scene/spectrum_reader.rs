@@ -25,8 +25,8 @@ use super::diagnostic::{Diagnostic, lines_of};
 use super::document::Kind;
 use super::factor_range::{LARGEST, outside_of};
 use super::files::LONGEST_CURVE_BYTES;
-use super::nearest::nearest;
 use super::reading::Reading;
+use crate::naming::nearest;
 use crate::spectrum::file::{self, CurveFile, FileRules, Meaning};
 use crate::spectrum::{Density, Factor, Line, Outside, SpectrumError, Table, library};
 

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use super::decode::Value;
 use super::document::Kind;
 use super::factor_range::outside_of;
-use super::nearest::nearest;
 use super::reading::Reading;
 use super::spectrum_reader::read_factor;
+use crate::naming::nearest;
 use crate::spectrum::{Factor, Outside};
 use crate::surface::Surface;
 

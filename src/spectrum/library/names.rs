@@ -1,6 +1,7 @@
 //! What is compared of a name, and which names are near one that was not found.
 
 use super::Entry;
+use crate::naming::distance;
 
 /// How many nearest names are offered.
 const OFFERED: usize = 3;
@@ -48,8 +49,8 @@ pub(super) fn nearest(name: &str, entries: impl Iterator<Item = &'static Entry>)
     let wanted: Vec<char> = key(name).chars().take(COMPARED).collect();
     let wanted_text: String = wanted.iter().collect();
     let mistakes = |candidate: &str| {
-        let distance = edit_distance(&wanted, &candidate.chars().take(COMPARED).collect::<Vec<_>>());
-        if wanted.len() >= 3 && candidate.contains(&wanted_text) { distance.min(1) } else { distance }
+        let found = distance(&wanted, &candidate.chars().take(COMPARED).collect::<Vec<_>>());
+        if wanted.len() >= 3 && candidate.contains(&wanted_text) { found.min(1) } else { found }
     };
     let best_of = |entry: &'static Entry| {
         let ranked = entry.names().map(|name| {
@@ -63,41 +64,9 @@ pub(super) fn nearest(name: &str, entries: impl Iterator<Item = &'static Entry>)
     ranked.into_iter().take(OFFERED).map(|(.., name)| name.to_owned()).collect()
 }
 
-/// What one letter too many, too few or wrong costs; two neighbours that changed places cost half of it.
-const WRONG_LETTER: usize = 2;
-
-/// Optimal string alignment distance.
-fn edit_distance(a: &[char], b: &[char]) -> usize {
-    let mut before: Vec<usize> = Vec::new();
-    let mut row: Vec<usize> = (0..=b.len()).map(|j| j * WRONG_LETTER).collect();
-    for (i, from) in a.iter().enumerate() {
-        let mut next = vec![(i + 1) * WRONG_LETTER];
-        for (j, to) in b.iter().enumerate() {
-            let replaced = row[j] + if from == to { 0 } else { WRONG_LETTER };
-            let mut least = replaced.min(row[j + 1] + WRONG_LETTER).min(next[j] + WRONG_LETTER);
-            if i > 0 && j > 0 && *from == b[j - 1] && a[i - 1] == *to {
-                least = least.min(before[j - 1] + WRONG_LETTER / 2);
-            }
-            next.push(least);
-        }
-        before = std::mem::replace(&mut row, next);
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn distance(a: &str, b: &str) -> usize {
-        edit_distance(&a.chars().collect::<Vec<_>>(), &b.chars().collect::<Vec<_>>())
-    }
-
-    #[test]
-    fn letters_that_changed_places_are_nearer_than_wrong_ones() {
-        assert_eq!([distance("d56", "d65"), distance("d56", "d50"), distance("", "abc"), distance("abc", "abc")], [1, 2, 6, 0]);
-        assert_eq!([distance("scotpic", "scotopic"), distance("kitten", "sitting"), distance("ab", "ba")], [2, 6, 1]);
-    }
 
     #[test]
     fn keys_keep_primes_and_greek_letters_and_drop_the_rest() {

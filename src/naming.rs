@@ -1,40 +1,43 @@
 //! Which of the allowed names was probably meant.
 //!
 //! Names are compared without regard to case and separators by the Damerau–Levenshtein distance (optimal string
-//! alignment: insertions, deletions, substitutions, swaps of neighbours).
+//! alignment): a letter too many, too few or wrong is one mistake, two neighbours that changed places half of one.
+
+/// Halves of a mistake for a letter too many, too few or wrong.
+const WRONG_LETTER: usize = 2;
+/// Halves of a mistake for two neighbours that changed places.
+const EXCHANGED: usize = 1;
 
 fn plain(name: &str) -> Vec<char> {
     name.chars().filter(|c| c.is_alphanumeric()).take(64).flat_map(char::to_lowercase).collect()
 }
 
 /// Whether two names are the same but for case and separators.
-pub(super) fn same(a: &str, b: &str) -> bool {
+pub fn same(a: &str, b: &str) -> bool {
     plain(a) == plain(b)
 }
 
-fn distance(a: &[char], b: &[char]) -> usize {
-    let mut rows = vec![vec![0usize; b.len() + 1]; a.len() + 1];
-    for (i, row) in rows.iter_mut().enumerate() {
-        row[0] = i;
-    }
-    for (j, cell) in rows[0].iter_mut().enumerate() {
-        *cell = j;
-    }
-    for i in 1..=a.len() {
-        for j in 1..=b.len() {
-            let substituted = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut best = substituted.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                best = best.min(rows[i - 2][j - 2] + 1);
+/// Halves of mistakes between two texts. The work is the product of their lengths.
+pub(crate) fn distance(a: &[char], b: &[char]) -> usize {
+    let mut before: Vec<usize> = Vec::new();
+    let mut row: Vec<usize> = (0..=b.len()).map(|j| j * WRONG_LETTER).collect();
+    for (i, from) in a.iter().enumerate() {
+        let mut next = vec![(i + 1) * WRONG_LETTER];
+        for (j, to) in b.iter().enumerate() {
+            let replaced = row[j] + if from == to { 0 } else { WRONG_LETTER };
+            let mut least = replaced.min(row[j + 1] + WRONG_LETTER).min(next[j] + WRONG_LETTER);
+            if i > 0 && j > 0 && *from == b[j - 1] && a[i - 1] == *to {
+                least = least.min(before[j - 1] + EXCHANGED);
             }
-            rows[i][j] = best;
+            next.push(least);
         }
+        before = std::mem::replace(&mut row, next);
     }
-    rows[a.len()][b.len()]
+    row[b.len()]
 }
 
 /// The allowed name that is close enough to `found` to be offered, if any.
-pub(crate) fn nearest<'a>(found: &str, allowed: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(found: &str, allowed: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = plain(found);
     let mut best: Option<(usize, &str)> = None;
     for name in allowed {
@@ -42,8 +45,11 @@ pub(crate) fn nearest<'a>(found: &str, allowed: impl IntoIterator<Item = &'a str
         let shorter = wanted.len().min(candidate.len());
         // A name that was cut short is closer than its length says.
         let begins = shorter >= 3 && wanted[..shorter] == candidate[..shorter];
-        let far = if begins { 1 } else { distance(&wanted, &candidate) };
-        if (begins || far <= 1 + wanted.len() / 4) && far < candidate.len().max(1) && best.is_none_or(|(least, _)| far < least) {
+        let far = if begins { WRONG_LETTER } else { distance(&wanted, &candidate) };
+        if (begins || far <= WRONG_LETTER * (1 + wanted.len() / 4))
+            && far < WRONG_LETTER * candidate.len().max(1)
+            && best.is_none_or(|(least, _)| far < least)
+        {
             best = Some((far, name));
         }
     }
@@ -51,7 +57,7 @@ pub(crate) fn nearest<'a>(found: &str, allowed: impl IntoIterator<Item = &'a str
 }
 
 /// The names that are nearest to `found`, nearest first, at most `most` of them, and how many more there are.
-pub(crate) fn by_distance<'a>(found: &str, names: impl IntoIterator<Item = &'a str>, most: usize) -> (Vec<&'a str>, usize) {
+pub fn by_distance<'a>(found: &str, names: impl IntoIterator<Item = &'a str>, most: usize) -> (Vec<&'a str>, usize) {
     let wanted = plain(found);
     let mut all: Vec<(usize, &str)> = names.into_iter().map(|name| (distance(&wanted, &plain(name)), name)).collect();
     all.sort_unstable();
@@ -60,7 +66,7 @@ pub(crate) fn by_distance<'a>(found: &str, names: impl IntoIterator<Item = &'a s
 }
 
 /// `did you mean …? allowed: …`
-pub(crate) fn suggestion(found: &str, allowed: &[&str]) -> String {
+pub fn suggestion(found: &str, allowed: &[&str]) -> String {
     let list = allowed.join(", ");
     match nearest(found, allowed.iter().copied()) {
         Some(name) => format!("did you mean `{name}`? allowed: {list}"),
@@ -71,6 +77,13 @@ pub(crate) fn suggestion(found: &str, allowed: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn letters_that_changed_places_are_nearer_than_wrong_ones() {
+        let halves = |a: &str, b: &str| distance(&a.chars().collect::<Vec<_>>(), &b.chars().collect::<Vec<_>>());
+        assert_eq!([halves("d56", "d65"), halves("d56", "d50"), halves("", "abc"), halves("abc", "abc")], [1, 2, 6, 0]);
+        assert_eq!([halves("scotpic", "scotopic"), halves("kitten", "sitting"), halves("ab", "ba")], [2, 6, 1]);
+    }
 
     #[test]
     fn slips_of_the_finger_are_recognised() {
