@@ -216,17 +216,19 @@ fn decimal_commas_are_accepted_and_told_whatever_separates_the_columns() {
     let folder = scratch("decimal-comma");
     let scene = folder.join("scene.ron");
     std::fs::write(&scene, lamp_scene("lamp.csv")).unwrap();
-    for rows in ["400;1,5\n500;2,5\n", "nm,value\n400;1,5\n500;2,5\n", "nm,value\n400,5;1,5\n500,5;2,5\n", "400,5 1,5\n500,5 2,5\n"] {
+    for rows in ["400;1,5\n500;2,5\n", "nm;value\n400;1,5\n500;2,5\n", "nm;value\n400,5;1,5\n500,5;2,5\n", "400,5 1,5\n500,5 2,5\n"] {
         std::fs::write(folder.join("lamp.csv"), rows).unwrap();
         let output = etendue(&["check", scene.to_str().unwrap()]);
         assert_eq!(output.status.code(), Some(0), "{rows}{}", stderr(&output));
         assert!(stderr(&output).contains("decimal comma"), "{rows}{}", stderr(&output));
     }
-    // What may be thousands or a fraction is not guessed.
-    std::fs::write(folder.join("lamp.csv"), "400;1,500\n500;2,500\n").unwrap();
-    let output = etendue(&["check", scene.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("# decimal: comma"), "{}", stderr(&output));
+    // What may be thousands or a fraction is not guessed, and what separates the columns is not changed on the way.
+    for (rows, help) in [("400;1,500\n500;2,500\n", "# decimal: comma"), ("nm,value\n400;1,5\n500;2,5\n", "separate all columns alike")] {
+        std::fs::write(folder.join("lamp.csv"), rows).unwrap();
+        let output = etendue(&["check", scene.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2), "{rows}");
+        assert!(stderr(&output).contains(help), "{rows}{}", stderr(&output));
+    }
 }
 
 #[test]

@@ -70,7 +70,7 @@ pub struct SpectrumFile {
 ///
 /// ```
 /// use etendue::spectrum::file::{FileRules, read};
-/// let text = "# wavelength_unit: um\n# per: um\n0.4;1,5\n0.5;2,5\n";
+/// let text = "# wavelength_unit: um\n# per: um\n0,4;1,5\n0,5;2,5\n";
 /// let file = read(text.as_bytes(), &FileRules::default()).unwrap();
 /// assert_eq!(file.curve.table.wavelengths_nm(), [400.0, 500.0]);
 /// assert_eq!(file.density.continuum_at(500.0), 2.5e-3);
