@@ -79,7 +79,8 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
             return Err(PlotError::Request { what });
         }
         let points: Vec<[f64; 2]> = points.into_iter().map(|[nm, value]| [nm, value / one]).collect();
-        if !points.is_empty() {
+        let only_lines = points.is_empty();
+        if !only_lines {
             let ink = if items.len() == 1 { Ink::Text } else { Ink::Palette(index) };
             let under = if items.len() == 1 { Under::Spectral } else { Under::Nothing };
             // The title names the only one.
@@ -87,8 +88,16 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
             chart_curves.push(Curve { width: if items.len() == 1 { 0.7 } else { 1.0 }, ..Curve::new(label, points, ink).filled(under) });
         }
         let named = items.len() == 1 && lines.len() <= MOST_NAMED_LINES;
+        // Lines without a continuum that bears the name bear it on the strongest of them.
+        let mut name_left = only_lines && items.len() > 1;
         for line in lines {
-            let label = if named { format!("{} nm", rounded(line.wavelength_nm)) } else { String::new() };
+            let label = if named {
+                format!("{} nm", rounded(line.wavelength_nm))
+            } else if line.power == strongest && std::mem::take(&mut name_left) {
+                name.clone()
+            } else {
+                String::new()
+            };
             let ink = match (items.len(), peak > 0.0) {
                 (1, false) => wavelength_ink(line.wavelength_nm),
                 // In front of the same colours only another is seen.
