@@ -79,21 +79,20 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
             return Err(PlotError::Request { what });
         }
         let points: Vec<[f64; 2]> = points.into_iter().map(|[nm, value]| [nm, value / one]).collect();
-        let only_lines = points.is_empty();
-        if !only_lines {
+        if peak > 0.0 {
             let ink = if items.len() == 1 { Ink::Text } else { Ink::Palette(index) };
             let under = if items.len() == 1 { Under::Spectral } else { Under::Nothing };
             // The title names the only one.
             let label = if items.len() == 1 { "" } else { name };
             chart_curves.push(Curve { width: if items.len() == 1 { 0.7 } else { 1.0 }, ..Curve::new(label, points, ink).filled(under) });
         }
-        let named = items.len() == 1 && lines.len() <= MOST_NAMED_LINES;
-        // Lines without a continuum that bears the name bear it on the strongest of them.
-        let mut name_left = only_lines && items.len() > 1;
-        for line in lines {
-            let label = if named {
+        let alone = items.len() == 1;
+        // The curve of a spectrum bears its name; of lines alone, the strongest does.
+        let mut bearer = (!alone && peak == 0.0).then_some(strongest);
+        for line in &lines {
+            let label = if alone && lines.len() <= MOST_NAMED_LINES {
                 format!("{} nm", rounded(line.wavelength_nm))
-            } else if line.power == strongest && std::mem::take(&mut name_left) {
+            } else if bearer.take_if(|power| *power == line.power).is_some() {
                 name.clone()
             } else {
                 String::new()
