@@ -19,6 +19,10 @@ pub const SECOND_RADIATION_CONSTANT_NM_K: f64 = SECOND_RADIATION_CONSTANT_M_K * 
 /// `2ck` in W m² sr⁻¹ K⁻¹ and nm: the Rayleigh–Jeans radiance is this times `T/λ⁴` with λ in nm, per nm.
 const RAYLEIGH_JEANS: f64 = 2.0 * SPEED_OF_LIGHT_M_S * BOLTZMANN_J_K * 1e36 * 1e-9;
 
+/// Temperatures of a black body as a spectrum, K: from below anything that was ever cooled to above anything that radiates thermally.
+/// Beyond them the fourth power and the wavelengths leave the range of `f64`.
+pub const TEMPERATURES_K: (f64, f64) = (1e-12, 1e12);
+
 /// `c₂/(λT)`, the photon energy in units of kT.
 fn reduced_energy(wavelength_nm: f64, temperature_k: f64) -> f64 {
     SECOND_RADIATION_CONSTANT_NM_K / wavelength_nm / temperature_k

@@ -99,6 +99,12 @@ fn is_uncertainty(name: &str) -> bool {
     matches!(name.trim().to_lowercase().replace([' ', '-'], "_").as_str(), "u" | "uncertainty" | "standard_uncertainty")
 }
 
+/// Whether a unit is one of photons: their number, or mol of them. As a distribution of power such numbers have the wrong shape.
+fn counts_photons(unit: &str) -> bool {
+    const PHOTONS: [&str; 9] = ["photon", "photons", "quanta", "mol", "mmol", "µmol", "μmol", "umol", "nmol"];
+    unit.split(|c: char| !c.is_alphabetic()).any(|word| PHOTONS.contains(&word.to_lowercase().as_str()))
+}
+
 fn read_csv(bytes: &[u8], meaning: Meaning, rules: &FileRules) -> Result<CurveFile, Vec<TextProblem>> {
     let FileRules { wavelength_unit, per, decimal_comma } = *rules;
     let mut text = parse_bytes(bytes, &TextRules { wavelength_unit, per, decimal_comma, ..TextRules::default() })?;
@@ -140,6 +146,10 @@ fn read_csv(bytes: &[u8], meaning: Meaning, rules: &FileRules) -> Result<CurveFi
         Some((name, unit)) => (quantity.or(Some(name)), Some(unit)),
         None => (quantity, unit),
     };
+    if let Some(unit) = unit.as_deref().filter(|unit| meaning == Meaning::Density && counts_photons(unit)) {
+        let help = "a spectrum is in W here; multiply every row by the energy of its photons, hc/λ, and correct the unit";
+        return Err(vec![whole(format!("the unit `{unit}` counts photons"), help)]);
+    }
     let unit = unit.map(|unit| if meaning == Meaning::Density && text.per.is_some() { per_nm(&unit) } else { unit });
     let wavelengths_nm = text.wavelengths_nm;
     finish(

@@ -79,6 +79,9 @@ impl Per {
 
     /// The interval that a header line or an option states.
     pub fn parse(text: &str) -> Option<Self> {
+        if text.trim_start().starts_with('-') {
+            return None;
+        }
         let parts: Vec<String> = words(text).into_iter().filter(|word| !matches!(word.as_str(), "band" | "bands" | "per" | "of")).collect();
         match parts.as_slice() {
             [unit] if !text.to_lowercase().contains("band") => WavelengthUnit::parse(unit).map(Self::Unit),
@@ -167,6 +170,28 @@ pub(super) fn unit_of_column(name: &str) -> Option<String> {
         name.to_owned()
     };
     Per::of_unit(&unit).map(|_| unit)
+}
+
+/// What the name of a first column says that is not a wavelength in a unit that is known: `frequency_THz`, `wavenumber_cm-1`, `energy (eV)`.
+pub(super) fn other_abscissa(name: &str) -> Option<String> {
+    const OTHERS: [&str; 15] = [
+        "frequency",
+        "frequencies",
+        "wavenumber",
+        "wavenumbers",
+        "energy",
+        "hz",
+        "ghz",
+        "thz",
+        "phz",
+        "ev",
+        "mev",
+        "kev",
+        "cm",
+        "mm",
+        "pm",
+    ];
+    words(name).into_iter().find(|word| OTHERS.contains(&word.as_str()))
 }
 
 /// Words and numbers of a text, in lower case; a unit that follows a number without a blank is a word of its own.

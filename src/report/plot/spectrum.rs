@@ -7,7 +7,7 @@ use crate::spectrum::Density;
 use crate::spectrum::library::RELATIVE;
 
 use super::PlotError;
-use super::chart::{Axis, Chart, Curve, Impulse, Ink, Under};
+use super::chart::{Axis, Chart, Curve, Dash, Impulse, Ink, Under};
 use super::sample::{of_density, strip, wavelength_ink};
 
 /// A spectrum with its name.
@@ -48,6 +48,11 @@ pub struct Choice {
 /// Most lines that bear their wavelength.
 const MOST_NAMED_LINES: usize = 12;
 
+/// Colours of the palette; with more spectra they come again, dashed and then dotted.
+const COLOURS: usize = 8;
+/// How the spectra of each round of colours are broken.
+const DASHES: [Dash; 3] = [Dash::Solid, Dash::Dashed, Dash::Dotted];
+
 /// Spectra over wavelength. Errors if there is none, if one is zero in the range or where it is to be one, and if a structure is too
 /// narrow to be drawn.
 pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
@@ -55,6 +60,10 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
     let range = *from_nm..=*to_nm;
     if items.is_empty() {
         return Err(PlotError::Nothing { what: "no spectrum was asked for".to_owned() });
+    }
+    if items.len() > COLOURS * DASHES.len() {
+        let most = COLOURS * DASHES.len();
+        return Err(PlotError::Request { what: format!("{} spectra; at most {most} can be told apart in one plot", items.len()) });
     }
     let mut chart_curves = Vec::new();
     let mut impulses = Vec::new();
@@ -84,7 +93,8 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
             let under = if items.len() == 1 { Under::Spectral } else { Under::Nothing };
             // The title names the only one.
             let label = if items.len() == 1 { "" } else { name };
-            chart_curves.push(Curve { width: if items.len() == 1 { 0.7 } else { 1.0 }, ..Curve::new(label, points, ink).filled(under) });
+            let curve = Curve::new(label, points, ink).filled(under).dashed(DASHES[index / COLOURS]);
+            chart_curves.push(Curve { width: if items.len() == 1 { 0.7 } else { 1.0 }, ..curve });
         }
         let alone = items.len() == 1;
         // The curve of a spectrum bears its name; of lines alone, the strongest does.
@@ -136,7 +146,8 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
         (false, true) => (Axis::linear("Spectral distribution", &unit, 0.0, 1.1 * highest), None),
         (false, false) => (Axis::linear("Continuum", &unit, 0.0, 1.14 * highest), Some(power(strongest))),
     };
-    let subtitle = capitalised(&subtitle);
+    // Names stay as they are.
+    let subtitle = if names.len() == 1 { capitalised(&subtitle) } else { subtitle };
     Ok(Chart { curves: chart_curves, impulses, impulse_axis, strip: strip(*from_nm, *to_nm), ..Chart::new(&title, &subtitle, x, y) })
 }
 
