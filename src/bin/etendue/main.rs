@@ -16,6 +16,7 @@ mod list;
 mod measure;
 #[cfg(feature = "plot")]
 mod plot;
+mod save;
 mod spectrum;
 
 use std::io::Write;

@@ -1,6 +1,5 @@
 //! `etendue measure SCENE`: read every instrument.
 
-use std::ffi::OsString;
 use std::io::{Error, ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -12,6 +11,7 @@ use etendue::measurement::{Measurement, measure};
 use etendue::report::{csv, json, text};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::save::{save, unwritable, with_appended};
 use crate::{Failure, disk, explain, print};
 
 /// Read every instrument of a scene.
@@ -130,7 +130,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let written = arguments.format.write(&measurement);
     match &target {
         None => print(&written),
-        Some(target) => save(target, &written),
+        Some(target) => {
+            save(target, written.as_bytes())?;
+            print(&format!("{}\n", target.display()))
+        }
     }
 }
 
@@ -141,33 +144,6 @@ fn prepared(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, Fail
     match target.is_dir() {
         true => Err(unwritable(&target, &Error::from(ErrorKind::IsADirectory))),
         false => Ok(target),
-    }
-}
-
-/// Writes beside the target first and then moves: there is never half a file.
-fn save(target: &Path, written: &str) -> Result<(), Failure> {
-    let partial = PathBuf::from(with_appended(target, "partial"));
-    std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target)).map_err(|e| {
-        let _ = std::fs::remove_file(&partial);
-        unwritable(target, &e)
-    })?;
-    print(&format!("{}\n", target.display()))
-}
-
-/// The name with an extension more; a dot that the name has itself stays.
-fn with_appended(name: impl Into<OsString>, extension: &str) -> OsString {
-    let mut name = name.into();
-    name.push(".");
-    name.push(extension);
-    name
-}
-
-/// A full disk is nobody's mistake; any other place that cannot be written to is for whoever named it to change.
-fn unwritable(path: &Path, e: &Error) -> Failure {
-    let message = format!("error: cannot write `{}`: {e}", path.display());
-    match e.kind() {
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge | ErrorKind::WriteZero => Failure::Run(message),
-        _ => Failure::Input(format!("{message}\n  = help: --out takes a folder that can be written")),
     }
 }
 

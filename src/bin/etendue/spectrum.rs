@@ -1,6 +1,6 @@
 //! `etendue spectrum SPECTRUM`: every quantity of one spectrum.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ValueEnum;
 use etendue::observer::sheet::{RowUncertainty, Scale, SheetOptions, SpectralQuantity, SpectrumSheet};
@@ -10,6 +10,7 @@ use etendue::spectrum::file::{Meaning, write_csv, write_spdx};
 use etendue::spectrum::resample::{Lines, Rule, resample};
 use etendue::spectrum::{Table, library, spdx};
 
+use crate::save::save;
 use crate::{Failure, complain, disk, print};
 
 /// Every quantity of one spectrum: radiant, photon, luminous, scotopic, mesopic, α-opic, cones, colour.
@@ -201,7 +202,7 @@ fn rewrite(format: Rewritten, table: &Table, given: &GivenSpectrum, wanted: Scal
 fn put(arguments: &Arguments, written: &str) -> Result<(), Failure> {
     match &arguments.out {
         None => print(written),
-        Some(target) => save(target, written),
+        Some(target) => save(target, written.as_bytes()),
     }
 }
 
@@ -233,17 +234,4 @@ fn scale(arguments: &Arguments, given: &GivenSpectrum, entry: Option<&library::E
             (Scale::Relative, Some(remark))
         }
     }
-}
-
-/// Writes beside the target first and then moves: there is never half a file.
-fn save(target: &Path, written: &str) -> Result<(), Failure> {
-    let mut partial = target.as_os_str().to_owned();
-    partial.push(".partial");
-    std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target)).map_err(|e| {
-        let _ = std::fs::remove_file(&partial);
-        Failure::Input(format!(
-            "error: cannot write `{}`: {e}\n  = help: --out takes a file in a folder that can be written",
-            target.display()
-        ))
-    })
 }
