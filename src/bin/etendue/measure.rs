@@ -11,7 +11,7 @@ use etendue::measurement::{Measurement, measure};
 use etendue::report::{csv, json, text};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::save::{save, unwritable, with_appended};
+use crate::save::{A_FOLDER, save, unwritable, with_appended};
 use crate::{Failure, disk, explain, print};
 
 /// Read every instrument of a scene.
@@ -131,7 +131,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &target {
         None => print(&written),
         Some(target) => {
-            save(target, written.as_bytes())?;
+            save(target, written.as_bytes(), A_FOLDER)?;
             print(&format!("{}\n", target.display()))
         }
     }
@@ -140,9 +140,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// The file that the readings go to, its folder made: a place that cannot be used is told before the time of a measurement is spent.
 fn prepared(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, Failure> {
     let target = folder.join(with_appended(Path::new(scene).file_stem().unwrap_or_default(), extension));
-    std::fs::create_dir_all(folder).map_err(|e| unwritable(folder, &e))?;
+    std::fs::create_dir_all(folder).map_err(|e| unwritable(folder, &e, A_FOLDER))?;
     match target.is_dir() {
-        true => Err(unwritable(&target, &Error::from(ErrorKind::IsADirectory))),
+        true => Err(unwritable(&target, &Error::from(ErrorKind::IsADirectory), A_FOLDER)),
         false => Ok(target),
     }
 }

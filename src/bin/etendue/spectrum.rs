@@ -10,7 +10,7 @@ use etendue::spectrum::file::{Meaning, write_csv, write_spdx};
 use etendue::spectrum::resample::{Lines, Rule, resample};
 use etendue::spectrum::{Table, library, spdx};
 
-use crate::save::save;
+use crate::save::{A_FILE, save};
 use crate::{Failure, complain, disk, print};
 
 /// Every quantity of one spectrum: radiant, photon, luminous, scotopic, mesopic, α-opic, cones, colour.
@@ -202,7 +202,7 @@ fn rewrite(format: Rewritten, table: &Table, given: &GivenSpectrum, wanted: Scal
 fn put(arguments: &Arguments, written: &str) -> Result<(), Failure> {
     match &arguments.out {
         None => print(written),
-        Some(target) => save(target, written.as_bytes()),
+        Some(target) => save(target, written.as_bytes(), A_FILE),
     }
 }
 

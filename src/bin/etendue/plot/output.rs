@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use etendue::report::plot::{self, Chart, SIDES_PX, Size, Style, Theme};
 
 use super::bad;
-use crate::save::save;
+use crate::save::{A_FILE, save};
 use crate::{Failure, complain};
 
 /// Where the picture goes and how it looks.
@@ -107,7 +107,7 @@ impl Output {
 
 /// Writes a file and says so.
 fn wrote(target: &Path, written: &[u8]) -> Result<(), Failure> {
-    save(target, written)?;
+    save(target, written, A_FILE)?;
     complain(&format!("wrote {}", target.display()));
     Ok(())
 }
