@@ -49,6 +49,19 @@ fn a_line_of_one_watt_gives_the_lumens_of_v_lambda() {
 }
 
 #[test]
+fn a_unit_in_the_name_of_a_column_counts_as_one_in_the_header() {
+    for (name, head) in [
+        ("header", "# unit: W/(m2 nm)\nwavelength_nm,value\n400,1\n500,1\n"),
+        ("brackets", "wavelength_nm,irradiance (W/(m² nm))\n400,1\n500,1\n"),
+        ("underscores", "wavelength_nm,irradiance_w_m2_nm\n400,1\n500,1\n"),
+        ("strokes", "wavelength_nm,W/m2/µm\n400,1000\n500,1000\n"),
+    ] {
+        let sheet = json(&[file(&format!("{name}.csv"), head.as_bytes()).to_str().unwrap()]);
+        assert!((number(&sheet, "radiant") / 100.0 - 1.0).abs() < 1e-12, "{name}: {sheet}");
+    }
+}
+
+#[test]
 fn the_page_has_a_unit_or_a_name_for_every_number() {
     let output = spectrum(&["D65"]);
     let page = text(&output.stdout);

@@ -166,3 +166,21 @@ fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spectrum::{Line, library};
+
+    #[test]
+    fn every_one_of_several_spectra_is_named_once() {
+        let lines = [(435.83, 1.0), (546.07, 3.0)].map(|(wavelength_nm, power)| Line { wavelength_nm, power });
+        let items = [("D65", library::density("D65").unwrap()), ("mercury", Density::lines_only(&lines).unwrap())];
+        let items = items.map(|(name, density)| Item { name: name.to_owned(), density }).to_vec();
+        let choice = Choice { items, scaling: Scaling::Peak, unit: String::new(), from_nm: 380.0, to_nm: 780.0 };
+        let chart = chart(&choice).unwrap();
+        let curves: Vec<&str> = chart.curves.iter().map(|curve| curve.label.as_str()).collect();
+        let impulses: Vec<(f64, &str)> = chart.impulses.iter().map(|impulse| (impulse.x, impulse.label.as_str())).collect();
+        assert_eq!((curves, impulses), (vec!["D65"], vec![(435.83, ""), (546.07, "mercury")]));
+    }
+}
