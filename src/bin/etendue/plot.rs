@@ -249,7 +249,7 @@ impl Spectrum {
     fn chart(&self) -> Result<Chart, Failure> {
         use plot::spectrum::{Choice, Item, Scaling};
         let given = all(&self.spectra, |text| spectrum_from_text(text, &disk::Anywhere))?;
-        given.iter().flat_map(|one| &one.remarks).for_each(|remark| complain(remark));
+        given.iter().flat_map(|one| &one.remarks).for_each(|remark| complain(&format!("remark: {remark}")));
         // Units are written only where all agree.
         let unit = |one: &GivenSpectrum| match &one.file {
             Some(file) => file.unit.clone(),
