@@ -71,7 +71,7 @@ impl Arguments {
         };
         let given = all(&self.spectra, |text| spectrum_from_text(text, &disk::Anywhere))?;
         let primaries = all(&self.primaries, |text| spectrum_from_text(text, &disk::Anywhere))?;
-        given.iter().chain(&primaries).flat_map(|one| &one.remarks).for_each(|remark| complain(remark));
+        given.iter().chain(&primaries).flat_map(|one| &one.remarks).for_each(|remark| complain(&format!("remark: {remark}")));
         let mut gamuts = all(&self.gamut, DisplayGamut::named)?;
         if !primaries.is_empty() {
             let spectra: Vec<_> = primaries.into_iter().map(|one| one.density).collect();
