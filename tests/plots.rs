@@ -402,7 +402,7 @@ fn the_command_writes_whole_files_and_says_which() {
     assert_eq!((code, message.as_str()), (Some(0), "wrote cones.svg\nwrote cones.csv\n"));
     assert_eq!(names(), ["cones.csv", "cones.svg"]);
     let (code, message) = etendue(&folder, &["plot", "cmf", "--out", "nowhere/x.png"]);
-    assert_eq!(code, Some(1), "{message}");
+    assert_eq!(code, Some(2), "{message}");
     std::fs::remove_dir_all(&folder).expect("removable");
 }
 
