@@ -405,16 +405,3 @@ fn the_command_writes_whole_files_and_says_which() {
     assert_eq!(code, Some(2), "{message}");
     std::fs::remove_dir_all(&folder).expect("removable");
 }
-
-#[cfg(feature = "cli")]
-#[test]
-fn numbers_that_were_converted_to_per_nm_bear_that_unit() {
-    let folder = std::env::temp_dir().join(format!("etendue-plot-unit-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    std::fs::write(folder.join("lamp.csv"), "# wavelength_unit: nm\n# unit: W/(m2 um)\n400,1000\n500,2000\n").expect("written");
-    let (code, message) = etendue(&folder, &["plot", "spectrum", "lamp.csv", "--relative-to", "nothing", "--csv", "lamp-drawn.csv"]);
-    assert!(code == Some(0) && message.contains("divided by 1000"), "{message}");
-    let drawn = std::fs::read_to_string(folder.join("lamp-drawn.csv")).expect("readable");
-    assert!(drawn.contains("W/(m² nm)") && drawn.contains(",400,1,"), "{drawn}");
-    std::fs::remove_dir_all(&folder).expect("removed");
-}
