@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use etendue::scene::{FileProblem, Files, Scene, read_scene};
 
-use crate::Failure;
+use crate::{Failure, complain};
 
 /// The disk, as the library sees it.
 pub(crate) struct Disk {
@@ -66,6 +66,31 @@ fn regular_file(path: &Path, most_bytes: u64) -> Result<Vec<u8>, FileProblem> {
         n if n > most_bytes => Err(FileProblem::TooLong { bytes: n }),
         _ => Ok(bytes),
     }
+}
+
+/// The text of a file that whoever runs the program named.
+pub(crate) fn text(path: &str, most_bytes: u64) -> Result<String, Failure> {
+    let bytes = Anywhere.read(path, most_bytes).map_err(|problem| match problem {
+        FileProblem::Missing => Failure::Input(format!("error: there is no file {path}")),
+        FileProblem::TooLong { bytes } => Failure::Input(format!("error: {path} has {bytes} bytes; allowed: {most_bytes}")),
+        FileProblem::Unreadable(why) => Failure::Input(format!("error: cannot read {path}: {why}")),
+    })?;
+    String::from_utf8(bytes)
+        .map_err(|error| Failure::Input(format!("error: {path}: byte {} is no UTF-8", error.utf8_error().valid_up_to() + 1)))
+}
+
+/// Writes a file beside the target first and then moves it, so that there is never half a file, and says on stderr which.
+pub(crate) fn save(target: &Path, written: &[u8]) -> Result<(), Failure> {
+    let mut partial = target.as_os_str().to_owned();
+    partial.push(".partial");
+    let partial = PathBuf::from(partial);
+    let moved = fs::write(&partial, written).and_then(|()| fs::rename(&partial, target));
+    moved.map_err(|e| {
+        let _ = fs::remove_file(&partial);
+        Failure::Run(format!("error: cannot write {}: {e}", target.display()))
+    })?;
+    complain(&format!("wrote {}", target.display()));
+    Ok(())
 }
 
 fn names_beside(path: &str) -> Vec<String> {

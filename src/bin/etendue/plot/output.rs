@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use etendue::report::plot::{self, Chart, SIDES_PX, Size, Style, Theme};
 
 use super::bad;
-use crate::{Failure, complain};
+use crate::{Failure, disk};
 
 /// Where the picture goes and how it looks.
 #[derive(clap::Args)]
@@ -96,24 +96,10 @@ impl Output {
             Format::Svg => svg.into_bytes(),
             Format::Png => plot::png(&svg, self.scale).map_err(bad)?,
         };
-        save(&target, &drawn)?;
+        disk::save(&target, &drawn)?;
         match &self.csv {
-            Some(table) => save(table, plot::csv(&chart).as_bytes()),
+            Some(table) => disk::save(table, plot::csv(&chart).as_bytes()),
             None => Ok(()),
         }
     }
-}
-
-/// Writes beside the target first and then moves: there is never half a file.
-fn save(target: &Path, written: &[u8]) -> Result<(), Failure> {
-    let mut partial = target.as_os_str().to_owned();
-    partial.push(".partial");
-    let partial = PathBuf::from(partial);
-    let moved = std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target));
-    moved.map_err(|e| {
-        let _ = std::fs::remove_file(&partial);
-        Failure::Run(format!("error: cannot write {}: {e}", target.display()))
-    })?;
-    complain(&format!("wrote {}", target.display()));
-    Ok(())
 }
