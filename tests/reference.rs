@@ -6,9 +6,9 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
-mod disk;
 #[path = "reference/behaviour.rs"]
 mod behaviour;
+mod disk;
 
 use etendue::observer::AlphaOpic;
 use etendue::study::verify::families::observers::source;
@@ -16,11 +16,9 @@ use etendue::study::verify::{Check, Selection, Suite, Tables, Verdict, WAITING};
 
 /// The tables that cases name and that are not shipped.
 fn tables() -> Tables {
-    let text = |path: &std::path::PathBuf| std::fs::read_to_string(path).unwrap();
-    disk::files_in("tests/reference/data", "csv")
-        .into_iter()
-        .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), text(&path)))
-        .collect()
+    let folder = "tests/reference/data";
+    let text = |file: String| (file.clone(), std::fs::read_to_string(disk::root().join(folder).join(file)).unwrap());
+    disk::files_in(folder, &["csv"]).into_iter().map(text).collect()
 }
 
 fn suite() -> Suite {
@@ -71,7 +69,7 @@ fn every_case_is_read_or_waits_for_a_stated_reason() {
         }
     }
     for (name, why) in WAITING {
-        assert!(suite.cases().iter().any(|case| name == case.id() || name == case.family()), "{name} waits but is no case");
+        assert!(suite.cases().iter().any(|case| *name == case.id() || *name == case.family()), "{name} waits but is no case");
         assert!(why.len() > 20, "{name}");
     }
 }

@@ -185,7 +185,8 @@ fn every_problem_of_a_file_of_cases_is_told() {
         assert!(bad.contains(part), "`{part}` is not in:\n{bad}");
     }
     // An input that is missing is the failure of that case alone.
-    let one = r#"{"cases": [{"id": "g1e.sphere-4", "title": "t", "quantity": "E", "unit": "lx", "reference": "1", "abs_tol": 1, "inputs": {}}]}"#;
+    let one =
+        r#"{"cases": [{"id": "g1e.sphere-4", "title": "t", "quantity": "E", "unit": "lx", "reference": "1", "abs_tol": 1, "inputs": {}}]}"#;
     let suite = Suite::from_files(&[("own.json", one)], Tables::new()).unwrap();
     let check = suite.check(&suite.cases()[0], &|| 0.0);
     assert!(check.fails() && check.reason().unwrap().contains("has no input"), "{check:?}");

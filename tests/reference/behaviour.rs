@@ -3,15 +3,14 @@
 use std::f64::consts::PI;
 
 use etendue::estimate::{EstimateError, Stop, Watch};
+use etendue::measurement::Reading;
 use etendue::measurement::measure;
 use etendue::plan::{Plan, PlanOptions};
 use etendue::scene::{MemoryFiles, Scene, read_scene, scene_from_text};
 use etendue::sensor::Acceptance;
 use etendue::spectrum::Density;
-use etendue::measurement::Reading;
 use etendue::study::verify::bench::{self, System, measured};
 use etendue::study::verify::families::radiometry;
-
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 const METER: &str = "Sensor(aperture: Point, acceptance: Cosine, channels: [(name: \"E\", responsivity: 1, reads: Irradiance)])";

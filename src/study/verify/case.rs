@@ -271,6 +271,11 @@ impl Case {
         decimal(self.input(key)?, key)
     }
 
+    /// An input that is a list of numbers.
+    pub fn numbers(&self, key: &str) -> Result<Vec<f64>, Fault> {
+        list(self.input(key)?, key)?.iter().map(|value| decimal(value, key)).collect()
+    }
+
     /// An input of three numbers.
     pub fn vector(&self, key: &str) -> Result<[f64; 3], Fault> {
         vector(self.input(key)?, key)

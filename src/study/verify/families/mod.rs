@@ -8,6 +8,7 @@ pub mod observers;
 mod quality;
 pub mod radiometry;
 mod spectra;
+mod transport;
 
 use super::case::{Case, Fault, Found};
 
@@ -22,10 +23,18 @@ pub(super) type Families = &'static [(&'static str, Family)];
 
 /// All families by name.
 pub(super) fn all() -> impl Iterator<Item = (&'static str, Family)> {
-    [radiometry::FAMILIES, extreme::FAMILIES, spectra::FAMILIES, colour::FAMILIES, observers::FAMILIES, quality::FAMILIES]
-        .into_iter()
-        .flatten()
-        .copied()
+    [
+        radiometry::FAMILIES,
+        extreme::FAMILIES,
+        spectra::FAMILIES,
+        colour::FAMILIES,
+        observers::FAMILIES,
+        quality::FAMILIES,
+        transport::FAMILIES,
+    ]
+    .into_iter()
+    .flatten()
+    .copied()
 }
 
 /// An input that describes in words what the function does: it must be the words that the function was written for.
