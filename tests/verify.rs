@@ -133,7 +133,7 @@ fn groups_parts_families_and_cases_are_chosen_by_name() {
         (vec!["--group", "g1e.sphere"], 6),
         (vec!["--group", "g2"], 171),
         (vec!["--case", "g1e.sphere-2"], 1),
-        (vec!["--group", "g1e", "--case", "g1i.polygon-1"], 7),
+        (vec!["--group", "g1e", "--case", "g1i.polygon-2"], 7),
     ] {
         let found = run(&[&arguments[..], &["--format", "csv"]].concat());
         assert!(found.status.success(), "{arguments:?}: {}", text(&found.stderr));
@@ -169,6 +169,7 @@ fn every_problem_of_a_file_of_cases_is_told() {
         {"id": "g1e.sphere-1", "title": "t", "quantity": "E", "unit": "lx", "reference": "1", "rel_tol": -1, "inputs": {}},
         {"id": "g1e.sphere-2", "title": "t", "unit": "lx", "reference": 5, "inputs": []},
         {"id": "g1e.sphere-3", "title": "t", "quantity": "E", "unit": "lx", "reference": "NaN", "abs_tol": 1, "inputs": {}},
+        {"id": "g1e.sphere-5", "title": "t", "quantity": "E", "unit": "lx", "reference": "1", "inputs": {}},
         {"id": "g1e.sphere-4", "title": "t", "quantity": "E", "unit": "lx", "reference": "1", "abs_tol": 1, "inputs": {}},
         {"id": "g1e.sphere-4", "title": "t", "quantity": "E", "unit": "lx", "reference": "1", "abs_tol": 1, "inputs": {}}]}"#,
     );
@@ -177,7 +178,7 @@ fn every_problem_of_a_file_of_cases_is_told() {
         "g1e.sphere-1: `rel_tol` is -1",
         "g1e.sphere-2: `quantity` is missing",
         "g1e.sphere-2: `reference` is 5",
-        "neither `rel_tol` nor `abs_tol`",
+        "g1e.sphere-5: neither `rel_tol` nor `abs_tol`",
         "`inputs` is missing or no record",
         "g1e.sphere-3: `reference` is \"NaN\"",
         "a case of this id is there already",

@@ -148,8 +148,8 @@ pub fn page(of: &Verification, about: &[(String, String)]) -> Result<String, Plo
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
          <title>Étendue: verification</title>\n<style>{CSS}</style>\n</head>\n<body>\n<h1>Verification of Étendue</h1>\n<p class=\"{class}\">{}</p>\n\
-         <dl>\n{about}</dl>\n<p class=\"muted\">Of limit: |reading − reference| over the tolerance of the case, or over the expanded uncertainty U of a sampled \
-         reading if that is larger; above 1 a case fails. In u: the deviation over the standard uncertainty that the reading states. Tolerances come with the \
+         <dl>\n{about}</dl>\n<p class=\"muted\">Of limit: |reading − reference| over the tolerance of the case, or, for a sampled reading, over k u at the level 1 − 10⁻⁴ \
+         if that is larger; above 1 a case fails. In u: the deviation over the standard uncertainty that the reading states. Tolerances come with the \
          references, each computed by two routes outside this program.</p>\n{deviations}<h2>By group</h2>\n{}<h2>Case by case</h2>\n{}<h2>Time</h2>\n\
          <p>{slowest}</p>\n{times}</body>\n</html>\n",
         escaped(&sentence(of)),

@@ -5,7 +5,7 @@
 //! | reference, reading | in the unit of the case |
 //! | relative | (reading − reference) / abs(reference) |
 //! | in u | (reading − reference) / u, where the reading states a standard uncertainty u |
-//! | of limit | abs(reading − reference) over the tolerance of the case, or over U of a sampled reading if that is larger; above 1 the case fails |
+//! | of limit | abs(reading − reference) over the largest that passes: the tolerance, or for a sampled reading k u at the level 1 − 1e-4 if that is larger; above 1 the case fails |
 //! | ms | time that the case took |
 //!
 //! `json` and `csv` are for programs, `html` is a page with plots.
@@ -177,7 +177,7 @@ pub fn text(of: &Verification) -> String {
     for group in groups.iter().filter(|group| !group.title.is_empty()) {
         out.push_str(&format!("{}: {}\n", group.name, group.title));
     }
-    out.push_str("of limit: deviation over the tolerance of the case, or over U of a sampled reading if that is larger; in u: over its standard uncertainty\n");
+    out.push_str("of limit: deviation over the tolerance of the case, or for a sampled reading over k u at the level 1 - 1e-4 if that is larger\nin u: deviation over the standard uncertainty that the reading states\n");
     out.push_str(&format!("\n{}\n", sentence(of)));
     out
 }

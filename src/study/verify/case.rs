@@ -20,6 +20,7 @@ use serde_json::Value;
 
 use crate::measurement::Reading;
 use crate::metrology::Expanded;
+use crate::metrology::distribution::student_t_quantile;
 use crate::spectrum::table_text::{TextRules, parse};
 use crate::spectrum::{Density, Outside, Table};
 
@@ -58,6 +59,12 @@ impl<E: std::error::Error> From<E> for Fault {
     }
 }
 
+/// How often a correct program may fail the whole suite after a change of its random numbers.
+pub const CHANCE: f64 = 0.01;
+
+/// Sampled readings in the suite, at most. An interval of 95 % for each would fail one in twenty correct ones.
+pub const COMPARISONS: f64 = 100.0;
+
 /// What a family computes of a case, in the unit of the case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
@@ -67,23 +74,26 @@ pub struct Found {
     pub standard_uncertainty: Option<f64>,
     /// Its expanded uncertainty U at 95 %, where it is a reading.
     pub expanded_uncertainty: Option<f64>,
+    /// Degrees of freedom behind u.
+    pub degrees_of_freedom: f64,
     /// Samples that went into it; zero where formulas served.
     pub samples: u64,
 }
 
 impl From<f64> for Found {
     fn from(value: f64) -> Self {
-        Found { value, standard_uncertainty: None, expanded_uncertainty: None, samples: 0 }
+        Found { value, standard_uncertainty: None, expanded_uncertainty: None, degrees_of_freedom: f64::INFINITY, samples: 0 }
     }
 }
 
 impl From<&Reading> for Found {
     fn from(reading: &Reading) -> Self {
-        let Expanded { expanded_uncertainty, .. } = reading.expanded;
+        let Expanded { expanded_uncertainty, degrees_of_freedom, .. } = reading.expanded;
         Found {
             value: reading.value,
             standard_uncertainty: Some(reading.standard_uncertainty()),
             expanded_uncertainty: Some(expanded_uncertainty),
+            degrees_of_freedom,
             samples: reading.samples,
         }
     }
@@ -98,6 +108,7 @@ impl Found {
             value: self.value * factor,
             standard_uncertainty: scale(self.standard_uncertainty),
             expanded_uncertainty: scale(self.expanded_uncertainty),
+            degrees_of_freedom: self.degrees_of_freedom,
             samples: self.samples,
         }
     }
@@ -110,7 +121,19 @@ impl Found {
             value: self.value - other.value,
             standard_uncertainty: joint(self.standard_uncertainty, other.standard_uncertainty),
             expanded_uncertainty: joint(self.expanded_uncertainty, other.expanded_uncertainty),
+            degrees_of_freedom: self.degrees_of_freedom.min(other.degrees_of_freedom),
             samples: self.samples + other.samples,
+        }
+    }
+
+    /// Largest deviation from the reference that passes: the tolerance, or, where samples were taken, the half-width k u of the interval that holds
+    /// the measurand with the probability 1 − [`CHANCE`]/[`COMPARISONS`], if that is larger.
+    #[must_use]
+    pub fn limit(&self, tolerance: f64) -> f64 {
+        let k = student_t_quantile(1.0 - 0.5 * CHANCE / COMPARISONS, self.degrees_of_freedom);
+        match (self.samples, k, self.standard_uncertainty) {
+            (0, ..) | (_, None, _) | (.., None) => tolerance,
+            (_, Some(k), Some(u)) => tolerance.max(k * u),
         }
     }
 }

@@ -22,9 +22,8 @@ pub enum Verdict {
 impl Verdict {
     /// Whether what was found agrees with the reference.
     pub(super) fn of(case: &Case, reference: f64, found: Found) -> Verdict {
-        let own = if found.samples > 0 { found.expanded_uncertainty.unwrap_or(0.0) } else { 0.0 };
         let deviation = (found.value - reference).abs();
-        if deviation <= case.tolerance().max(own) { Verdict::Agrees(found) } else { Verdict::Deviates(found) }
+        if deviation <= found.limit(case.tolerance()) { Verdict::Agrees(found) } else { Verdict::Deviates(found) }
     }
 }
 
@@ -118,12 +117,11 @@ impl Check {
         Some(self.deviation()? / u)
     }
 
-    /// |deviation| over the largest that passes: the tolerance, or U of a sampled reading if that is larger. Above 1 it fails; NaN for no number.
+    /// |deviation| over the largest that passes, [`Found::limit`]. Above 1 it fails; NaN for no number.
     pub fn deviation_in_limits(&self) -> Option<f64> {
         let found = self.found()?;
-        let own = if found.samples > 0 { found.expanded_uncertainty.unwrap_or(0.0) } else { 0.0 };
         let deviation = self.deviation()?.abs();
-        Some(if deviation == 0.0 { 0.0 } else { deviation / self.tolerance.max(own) })
+        Some(if deviation == 0.0 { 0.0 } else { deviation / found.limit(self.tolerance) })
     }
 }
 
