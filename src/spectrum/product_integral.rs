@@ -110,7 +110,7 @@ impl Term<'_> {
             let halves = [Segment { to: middle, ..segment }, Segment { from: middle, ..segment }];
             let estimates = halves.map(|half| self.estimate(&half, NODES));
             let sum = estimates[0].0 + estimates[1].0;
-            let visible = (AGREEMENT * (estimates[0].1 + estimates[1].1)).max(INVISIBLE * size);
+            let visible = ((AGREEMENT + self.noise(&segment)) * (estimates[0].1 + estimates[1].1)).max(INVISIBLE * size);
             if (sum - whole).abs() <= visible || halvings == MAX_HALVINGS || !sum.is_finite() {
                 closed.push(sum);
             } else {

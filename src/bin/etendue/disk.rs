@@ -1,7 +1,7 @@
 //! Files on disk.
 
 use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::io::{Error, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 
 use etendue::scene::{FileProblem, Files, Scene, read_scene};
@@ -79,20 +79,6 @@ pub(crate) fn text(path: &str, most_bytes: u64) -> Result<String, Failure> {
         .map_err(|error| Failure::Input(format!("error: {path}: byte {} is no UTF-8", error.utf8_error().valid_up_to() + 1)))
 }
 
-/// Writes a file beside the target first and then moves it, so that there is never half a file, and says on stderr which.
-pub(crate) fn save(target: &Path, written: &[u8]) -> Result<(), Failure> {
-    let mut partial = target.as_os_str().to_owned();
-    partial.push(".partial");
-    let partial = PathBuf::from(partial);
-    let moved = fs::write(&partial, written).and_then(|()| fs::rename(&partial, target));
-    moved.map_err(|e| {
-        let _ = fs::remove_file(&partial);
-        Failure::Run(format!("error: cannot write {}: {e}", target.display()))
-    })?;
-    complain(&format!("wrote {}", target.display()));
-    Ok(())
-}
-
 fn names_beside(path: &str) -> Vec<String> {
     let folder = Path::new(path).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
@@ -101,7 +87,7 @@ fn names_beside(path: &str) -> Vec<String> {
     names
 }
 
-/// Reads a scene, or says everything that is wrong with it.
+/// Reads a scene, or says everything that is wrong with it. How its files were understood is said on stderr.
 pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
     let path = match root {
         None => through_scenes_folder(path),
@@ -110,7 +96,9 @@ pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
     let folder = root.map_or_else(|| root_of(&path), PathBuf::from);
     // The empty path is the current folder to the library, and nothing to the disk.
     let disk = Disk { root: Path::new(".").join(folder) };
-    read_scene(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))
+    let scene = read_scene(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))?;
+    scene.remarks.iter().for_each(|remark| complain(&format!("note: {remark}")));
+    Ok(scene)
 }
 
 /// The files of the nearest folder of this name, here or above, as (path, text) in the order of their names; `None` if there is no folder.
@@ -158,5 +146,28 @@ fn through_scenes_folder(path: &str) -> String {
     match folders.iter().rposition(|part| part == "scenes") {
         Some(at) => format!("{}{}/{path}", "../".repeat(folders.len() - at), folders[at..].join("/")),
         None => path.to_owned(),
+    }
+}
+
+/// Puts the bytes into a file: beside the target first and then moved, so that there is never half a file. A link is followed; what is there
+/// and is no file (a pipe, a device such as `/dev/stdout`) is written to and not replaced.
+pub(crate) fn save(target: &Path, written: &[u8]) -> Result<(), Error> {
+    let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
+    if fs::metadata(&target).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+        return fs::write(&target, written);
+    }
+    let mut partial = target.as_os_str().to_owned();
+    partial.push(".partial");
+    fs::write(&partial, written).and_then(|()| fs::rename(&partial, &target)).inspect_err(|_| {
+        let _ = fs::remove_file(&partial);
+    })
+}
+
+/// A full disk is nobody's mistake; any other place that cannot be written to is for whoever named it to change.
+pub(crate) fn unwritable(path: &Path, e: &Error, help: &str) -> Failure {
+    let message = format!("error: cannot write `{}`: {e}", path.display());
+    match e.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge | ErrorKind::WriteZero => Failure::Run(message),
+        _ => Failure::Input(format!("{message}\n  = help: {help}")),
     }
 }

@@ -7,6 +7,8 @@ use std::time::Instant;
 use etendue::report::verify as report;
 use etendue::study::verify::{Selection, Suite, Tables};
 
+#[cfg(feature = "plot")]
+use crate::complain;
 use crate::{Failure, disk, print};
 
 /// Largest file of cases that is read.
@@ -75,7 +77,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     #[cfg(feature = "plot")]
     if let Some(path) = &arguments.report {
         let page = report::html::page(&found, &about()).map_err(|error| Failure::Run(format!("error: {error}")))?;
-        disk::save(path, page.as_bytes())?;
+        disk::save(path, page.as_bytes())
+            .map_err(|error| disk::unwritable(path, &error, "--report takes a file in a folder that can be written"))?;
+        complain(&format!("wrote {}", path.display()));
     }
     print(&match arguments.format {
         Format::Text => report::text(&found),

@@ -48,10 +48,11 @@ fn decades(values: impl Iterator<Item = f64>) -> (f64, f64) {
 #[must_use]
 pub fn deviations(of: &Verification) -> Chart {
     let (from, to) = decades(of.checks.iter().filter_map(Check::deviation_in_limits).chain([1.0]));
-    // Half a decade below the smallest is where a deviation of zero stands; above the limit there is always room.
+    // Below the smallest is where a deviation of zero stands, and what is hardly more; above the limit there is always room.
+    let from = from.max(1e-10);
     let (floor, to) = (0.2 * from, to.max(10.0));
     let y = Axis::log("deviation over the limit", "1", 0.1 * from, to);
-    let about = "one point a case; exact agreement stands at the lower edge, above the line a case fails";
+    let about = "one point a case; exact agreement, and all below 10⁻¹⁰, stands at the lower edge; above the line a case fails";
     let mut chart = chart(of, "Deviation from the reference, case by case", about, y, floor, Check::deviation_in_limits);
     let end = chart.x.to;
     chart.curves.push(Curve::new("limit", vec![[0.0, 1.0], [end, 1.0]], Ink::Text).dashed(Dash::Dashed).unwritten());

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use etendue::report::plot::{self, Chart, SIDES_PX, Size, Style, Theme};
 
 use super::bad;
-use crate::{Failure, disk};
+use crate::{Failure, complain, disk};
 
 /// Where the picture goes and how it looks.
 #[derive(clap::Args)]
@@ -86,6 +86,9 @@ impl Output {
     pub(super) fn draw(&self, kind: &str, chart: impl Fn() -> Result<Chart, Failure>) -> Result<(), Failure> {
         let target = self.out.clone().unwrap_or_else(|| PathBuf::from(format!("{kind}.svg")));
         let format = Format::of(&target)?;
+        if self.csv.as_ref() == Some(&target) {
+            return Err(bad(format!("--csv {}: that is the file of the picture; give the numbers a name of their own", target.display())));
+        }
         let chart = chart()?;
         let theme = match self.theme {
             ThemeName::Light => Theme::Light,
@@ -96,10 +99,17 @@ impl Output {
             Format::Svg => svg.into_bytes(),
             Format::Png => plot::png(&svg, self.scale).map_err(bad)?,
         };
-        disk::save(&target, &drawn)?;
+        save(&target, &drawn)?;
         match &self.csv {
-            Some(table) => disk::save(table, plot::csv(&chart).as_bytes()),
+            Some(table) => save(table, plot::csv(&chart).as_bytes()),
             None => Ok(()),
         }
     }
+}
+
+fn save(target: &Path, written: &[u8]) -> Result<(), Failure> {
+    let help = "--out and --csv take a file in a folder that can be written";
+    disk::save(target, written).map_err(|e| disk::unwritable(target, &e, help))?;
+    complain(&format!("wrote {}", target.display()));
+    Ok(())
 }
