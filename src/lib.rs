@@ -65,8 +65,9 @@
 //! | 6 | [`measurement`] | estimates → readings with budget and provenance | printing |
 //! | 7 | [`characterization`] | quality indices of instruments | fitting, printing |
 //! | 7 | [`lecture`] | the equations of a lecture by name, each a call of the library | physics of its own |
-//! | 8 | [`report`] | text, JSON, CSV, plots | computing anything else |
-//! | 9 | `bin/etendue` | arguments, files, screens | physics |
+//! | 8 | [`study`] | whether the program is right: reference cases, errors against time | printing |
+//! | 9 | [`report`] | text, JSON, CSV, plots | computing anything else |
+//! | 10 | `bin/etendue` | arguments, files, screens | physics |
 //!
 //! # Invariants
 //!
@@ -104,4 +105,5 @@ pub mod scene;
 pub mod sensor;
 pub mod source;
 pub mod spectrum;
+pub mod study;
 pub mod surface;

@@ -7,6 +7,7 @@
 //! | `csv.rs` | a row a reading, for spreadsheets |
 //! | `lecture/` | equations of the lecture and the table of quantities, as text and JSON |
 //! | `spectrum/` | the quantities of one spectrum, in the same three forms |
+//! | `verify/` | what became of reference cases, as text, JSON, CSV and a page of HTML |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
 pub mod csv;
@@ -16,3 +17,4 @@ pub mod lecture;
 pub mod plot;
 pub mod spectrum;
 pub mod text;
+pub mod verify;

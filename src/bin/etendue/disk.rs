@@ -68,6 +68,17 @@ fn regular_file(path: &Path, most_bytes: u64) -> Result<Vec<u8>, FileProblem> {
     }
 }
 
+/// The text of a file that whoever runs the program named.
+pub(crate) fn text(path: &str, most_bytes: u64) -> Result<String, Failure> {
+    let bytes = Anywhere.read(path, most_bytes).map_err(|problem| match problem {
+        FileProblem::Missing => Failure::Input(format!("error: there is no file {path}")),
+        FileProblem::TooLong { bytes } => Failure::Input(format!("error: {path} has {bytes} bytes; allowed: {most_bytes}")),
+        FileProblem::Unreadable(why) => Failure::Input(format!("error: cannot read {path}: {why}")),
+    })?;
+    String::from_utf8(bytes)
+        .map_err(|error| Failure::Input(format!("error: {path}: byte {} is no UTF-8", error.utf8_error().valid_up_to() + 1)))
+}
+
 fn names_beside(path: &str) -> Vec<String> {
     let folder = Path::new(path).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };

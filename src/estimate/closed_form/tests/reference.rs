@@ -48,7 +48,7 @@ fn vector(value: &Value) -> DVec3 {
 /// Cases whose id starts with `prefix`; a prefix without cases is a mistake of the test.
 fn cases(prefix: &str) -> Vec<Case> {
     let files =
-        [include_str!("../../../../tests/reference/g1_radiometry.json"), include_str!("../../../../tests/reference/g4_extreme.json")];
+        [include_str!("../../../study/verify/cases/g1_radiometry.json"), include_str!("../../../study/verify/cases/g4_extreme.json")];
     let found: Vec<Case> = files
         .iter()
         .flat_map(|text| serde_json::from_str::<Value>(text).unwrap()["cases"].as_array().unwrap().clone())

@@ -1,0 +1,7 @@
+//! Studies of the program itself: whether its readings are right.
+//!
+//! | module | what it asks |
+//! |---|---|
+//! | [`verify`] | does every reference case come out, on this machine |
+
+pub mod verify;
