@@ -12,7 +12,7 @@
 
 use std::fmt::Write as _;
 
-use super::Provenance;
+use super::{Difference, Provenance};
 use crate::estimate::journal::Share;
 
 /// Whose pieces of work a checkpoint holds.
@@ -96,13 +96,13 @@ impl CheckpointHeader {
         Ok(CheckpointHeader { provenance: p, share: share.ok_or("it has no `shard`")? })
     }
 
-    /// What keeps pieces recorded there from serving here, a line each.
+    /// What keeps pieces recorded there from serving here.
     #[must_use]
-    pub fn differences(&self, there: &CheckpointHeader) -> Vec<String> {
+    pub fn differences(&self, there: &CheckpointHeader) -> Vec<Difference> {
         let mut found = self.provenance.differences(&there.provenance);
         if self.share != there.share {
             let [here, there] = [self.share, there.share].map(|s| format!("{}/{}", s.number, s.of));
-            found.push(format!("shard: {here} here, {there} there"));
+            found.push(Difference { what: "shard", here, there });
         }
         found
     }

@@ -18,5 +18,5 @@ mod provenance;
 mod reading;
 
 pub use header::CheckpointHeader;
-pub use provenance::{Provenance, in_words};
+pub use provenance::{Difference, Provenance, in_words};
 pub use reading::{Measurement, Reading, measure, measure_with};

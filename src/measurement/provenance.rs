@@ -46,14 +46,13 @@ impl Provenance {
         }
     }
 
-    /// What keeps two measurements from having the same bits, a line each: what it is, how it is here, how it is there. Where
-    /// the scene lies is no difference as long as it says the same.
+    /// What keeps two measurements from having the same bits. Where the scene lies is no difference as long as it says the same.
     #[must_use]
-    pub fn differences(&self, there: &Provenance) -> Vec<String> {
+    pub fn differences(&self, there: &Provenance) -> Vec<Difference> {
         let mut found = Vec::new();
-        let mut compare = |what: &str, here: String, there: String| {
+        let mut compare = |what: &'static str, here: String, there: String| {
             if here != there {
-                found.push(format!("{what}: {here} here, {there} there"));
+                found.push(Difference { what, here, there });
             }
         };
         let hash = |h: u64| format!("{h:016x}");
@@ -73,10 +72,29 @@ impl Provenance {
         if found.is_empty() {
             let (here, there) = (hash(self.plan_hash), hash(there.plan_hash));
             if here != there {
-                found.push(format!("plan (a hash of it in words): {here} here, {there} there"));
+                found.push(Difference { what: "plan (a hash of it in words)", here, there });
             }
         }
         found
+    }
+}
+
+/// Something that two measurements do not share.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// What it is: "seed".
+    pub what: &'static str,
+    /// How it is in the one that was asked.
+    pub here: String,
+    /// How it is in the other one.
+    pub there: String,
+}
+
+impl Difference {
+    /// In words, with a name for each of the two: "seed: 0 here, 1 in the checkpoint".
+    #[must_use]
+    pub fn told(&self, here: &str, there: &str) -> String {
+        format!("{}: {} {here}, {} {there}", self.what, self.here, self.there)
     }
 }
 

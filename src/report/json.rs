@@ -233,7 +233,8 @@ pub fn from_json(text: &str) -> Result<Recorded, String> {
     }
     let o = document.provenance;
     let hash = |what: &str, digits: &str| {
-        u64::from_str_radix(digits, 16).map_err(|_| format!("`{what}` is `{}`; it should be 16 hexadecimal digits", digits.escape_default()))
+        u64::from_str_radix(digits, 16)
+            .map_err(|_| format!("`{what}` is `{}`; it should be 16 hexadecimal digits", digits.escape_default()))
     };
     let stop = Stop { target: o.options.target, budget_seconds: o.options.budget_seconds, samples: o.options.samples };
     if stop.budget_seconds.is_some() && o.rounds.is_empty() {

@@ -4,14 +4,19 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
-//! | `check.rs`, `explain.rs`, `measure.rs` | one file a subcommand |
+//! | `checkpoint.rs`, `output.rs` | the files that runs write |
+//! | `check.rs`, `explain.rs`, `measure.rs`, `merge.rs`, `repeat.rs` | one file a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
 mod check;
+mod checkpoint;
 mod disk;
 mod explain;
 mod measure;
+mod merge;
+mod output;
+mod repeat;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -34,6 +39,10 @@ enum Command {
     Explain(explain::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
+    /// Put the shares of a run together and read them as one.
+    Merge(merge::Arguments),
+    /// Measure again what a file of readings says, and tell whether the bits agree.
+    Repeat(repeat::Arguments),
 }
 
 /// Why a command ended early; what it has to say is on stderr already or is said here.
@@ -49,6 +58,8 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
+        Command::Repeat(arguments) => repeat::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

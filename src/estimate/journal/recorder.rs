@@ -15,12 +15,12 @@ pub struct Recorder<W> {
     known: Option<Recording>,
     share: Share,
     recalled: AtomicU64,
-    out: Mutex<Out<W>>,
+    pub(super) out: Mutex<Out<W>>,
 }
 
 #[derive(Debug)]
-struct Out<W> {
-    to: W,
+pub(super) struct Out<W> {
+    pub(super) to: W,
     numbering: Numbering,
     recorded: u64,
     /// What went wrong first. Nothing is written after it: records must follow one another.
