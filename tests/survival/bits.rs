@@ -21,10 +21,10 @@ const SCREEN: &str = "Scene(
     objects: [(name: \"floor\", shape: Quad(corner: (-3, -3, 0), u: (6, 0, 0), v: (0, 6, 0)), surface: \"floor\"),
               (name: \"screen\", shape: Quad(corner: (0, -3, 1), u: (3, 0, 0), v: (0, 6, 0)), surface: \"screen\")],
     sources: [(name: \"panel\", shape: Rectangle(0.6, 0.6), at: (0, 0, 2), facing: (0, 0, -1), strength: Lumens(1000), spectrum: \"A\"),
-              (name: \"lamp\", shape: Sphere(radius_m: 0.1), at: (1, 0.5, 2), strength: Lumens(500), spectrum: \"D65\")],
+              (name: \"lamp\", shape: Sphere(0.1), at: (1, 0.5, 2), strength: Lumens(500), spectrum: \"D65\")],
     instruments: [(name: \"row\", grid: (from: (-0.3, 0, 0.1), to: (0.3, 0, 0.1), points: (4, 1)), facing: (0, 0, 1),
         sensor: Sensor(title: \"ideal\", aperture: Point, acceptance: Cosine,
-                       channels: [(name: \"E_v\", responsivity: \"V\", reads: Illuminance), (name: \"E_e\", responsivity: Flat(380, 780), reads: Irradiance)]))],
+                       channels: [(name: \"E_v\", responsivity: \"V\", reads: Illuminance), (name: \"E_e\", responsivity: Constant(1), reads: Irradiance)]))],
 )";
 
 /// A scene, how a run of it ends, and the measurement of an uninterrupted one.

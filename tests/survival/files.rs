@@ -228,7 +228,7 @@ fn shares_of_a_scene_that_changed_are_told() {
     let scene = folder.join("scene.ron");
     let text = |candela: u32| {
         format!(
-            "Scene(sources: [(name: \"lamp\", shape: Sphere(radius_m: 0.1), at: (0, 0, 2), strength: Candela({candela}), spectrum: \"A\")],
+            "Scene(sources: [(name: \"lamp\", shape: Sphere(0.1), at: (0, 0, 2), strength: Candela({candela}), spectrum: \"A\")],
             objects: [(name: \"screen\", shape: Quad(corner: (0, -1, 1), u: (1, 0, 0), v: (0, 2, 0)), surface: \"black\")],
             surfaces: {{ \"black\": Lambertian(0) }},
             instruments: [(name: \"meter\", at: (0, 0, 0), facing: (0, 0, 1), sensor: Sensor(title: \"ideal\", aperture: Point,

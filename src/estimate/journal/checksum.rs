@@ -20,9 +20,14 @@ fn merged(accumulator: u64, lane: u64) -> u64 {
     (accumulator ^ round(0, lane)).wrapping_mul(P1).wrapping_add(P4)
 }
 
+/// Eight bytes; callers pass so many.
 fn word(bytes: &[u8]) -> u64 {
-    // Callers pass eight bytes; the first eight count in any case.
-    bytes.iter().take(8).enumerate().fold(0, |word, (i, &b)| word | u64::from(b) << (8 * i))
+    bytes.first_chunk().map_or(0, |b| u64::from_le_bytes(*b))
+}
+
+/// Four bytes.
+fn half_word(bytes: &[u8]) -> u64 {
+    bytes.first_chunk().map_or(0, |b| u64::from(u32::from_le_bytes(*b)))
 }
 
 /// The checksum of some bytes.
@@ -48,7 +53,7 @@ pub(super) fn xxh64(seed: u64, bytes: &[u8]) -> u64 {
     }
     let mut halves = lanes.remainder().chunks_exact(4);
     for half in &mut halves {
-        hash = (hash ^ word(half).wrapping_mul(P1)).rotate_left(23).wrapping_mul(P2).wrapping_add(P3);
+        hash = (hash ^ half_word(half).wrapping_mul(P1)).rotate_left(23).wrapping_mul(P2).wrapping_add(P3);
     }
     for &byte in halves.remainder() {
         hash = (hash ^ u64::from(byte).wrapping_mul(P5)).rotate_left(11).wrapping_mul(P1);

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::piece::{Piece, PieceKey, put_number};
-use super::recording::{END, Numbering, PIECE, Recording, after};
+use super::recording::{AFTER, BEFORE, END, Numbering, PIECE, Recording, after};
 use super::{Answer, Journal, Share};
 
 /// A journal that writes to anything that takes bytes. Each record is handed over whole, in one call of `write_all`, as soon as
@@ -54,10 +54,11 @@ impl<W: Write + Send> Recorder<W> {
         let ended = self.is_complete();
         let mut out = self.out.into_inner().unwrap_or_else(PoisonError::into_inner);
         if !ended {
-            let mut payload = vec![END];
-            put_number(out.recorded, &mut payload);
-            put_number(pieces, &mut payload);
-            out.append(&mut payload);
+            let mut frame = vec![0; BEFORE];
+            frame.push(END);
+            put_number(out.recorded, &mut frame);
+            put_number(pieces, &mut frame);
+            out.append(sealed(frame));
         }
         match out.failed {
             Some(error) => Err(error),
@@ -75,19 +76,25 @@ impl<W: Write + Send> Recorder<W> {
 }
 
 impl<W: Write> Out<W> {
-    /// Writes a record with this payload; the payload is used up.
-    fn append(&mut self, payload: &mut Vec<u8>) {
+    /// Writes a record that lacks only what stands before its payload.
+    fn append(&mut self, mut frame: Vec<u8>) {
         if self.failed.is_some() {
             return;
         }
-        let Some(before) = self.numbering.before(payload) else {
+        let Some(before) = self.numbering.before(frame.len() - BEFORE - AFTER) else {
             self.failed = Some(io::Error::new(io::ErrorKind::FileTooLarge, "a record of more than 4 GiB"));
             return;
         };
-        payload.extend_from_slice(&after(payload));
-        payload.splice(..0, before);
-        self.failed = self.to.write_all(payload).err();
+        frame[..BEFORE].copy_from_slice(&before);
+        self.failed = self.to.write_all(&frame).err();
     }
+}
+
+/// A record with its checksum; the bytes before its payload are for when its number is known.
+fn sealed(mut frame: Vec<u8>) -> Vec<u8> {
+    let checksum = after(&frame[BEFORE..]);
+    frame.extend_from_slice(&checksum);
+    frame
 }
 
 impl<W: Write + Send> Journal for Recorder<W> {
@@ -107,10 +114,13 @@ impl<W: Write + Send> Journal for Recorder<W> {
     }
 
     fn record(&self, key: &PieceKey, piece: &Piece) {
-        let mut payload = vec![PIECE];
-        piece.to_bytes(key, &mut payload);
+        let mut frame = Vec::with_capacity(96 + 8 * (piece.sums.len() + piece.potential.len()));
+        frame.extend_from_slice(&[0; BEFORE]);
+        frame.push(PIECE);
+        piece.to_bytes(key, &mut frame);
+        let frame = sealed(frame);
         let mut out = self.out();
-        out.append(&mut payload);
+        out.append(frame);
         out.recorded += 1;
     }
 }

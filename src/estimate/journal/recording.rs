@@ -24,8 +24,8 @@ use super::piece::{Piece, PieceKey, take_number};
 const MAGIC: &[u8] = b"etendue checkpoint, format ";
 const FORMAT: &str = "1";
 /// Bytes of a record before and after its payload.
-const BEFORE: usize = 8;
-const AFTER: usize = 8;
+pub(super) const BEFORE: usize = 8;
+pub(super) const AFTER: usize = 8;
 pub(super) const PIECE: u8 = 1;
 pub(super) const END: u8 = 2;
 
@@ -96,9 +96,9 @@ impl Numbering {
         xxh64(self.seed, &bytes) as u32
     }
 
-    /// What stands before the payload of the next record; `None` for one that is too long for a record.
-    pub(super) fn before(&mut self, payload: &[u8]) -> Option<[u8; BEFORE]> {
-        let length = u32::try_from(payload.len()).ok()?;
+    /// What stands before a payload of this length in the next record; `None` for one that is too long for a record.
+    pub(super) fn before(&mut self, payload: usize) -> Option<[u8; BEFORE]> {
+        let length = u32::try_from(payload).ok()?;
         let mut bytes = [0; BEFORE];
         bytes[..4].copy_from_slice(&length.to_le_bytes());
         bytes[4..].copy_from_slice(&self.check(length).to_le_bytes());
