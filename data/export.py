@@ -1,46 +1,33 @@
 #!/usr/bin/env python3
-"""Exports the spectral tables of this folder from colour-science 0.4.7 (BSD-3-Clause).
+"""Exports the spectral tables of this folder from packages under BSD and MIT licences.
 
     python3 -m venv venv && venv/bin/pip install colour-science==0.4.7
-    venv/bin/python data/export.py            # writes the tables and README.md
+    venv/bin/pip download --no-deps --no-binary pysilsub pysilsub==0.1.1 -d packages
+    venv/bin/pip download --no-deps pvlib==0.16.1 -d packages
+    venv/bin/python data/export.py packages   # writes the tables, README.md and LICENCES.txt
     python3 data/export.py --check            # checks header and sha256 of every table; needs no package
 
-The `sha256` of a header is that of all lines after the header, each ended by a line feed. `sum` is the sum of all values of the
-table, which the Rust tests compare without a hash.
+colour-science is imported; of the two others only data files are read, out of their archives. What each table is, is told in
+`tables.py`. The `sha256` of a header is that of all lines after the header, each ended by a line feed. `sum` is the sum of all values of
+the table, which the Rust tests compare without a hash.
 """
 
 import hashlib
+import importlib.metadata
 import math
 import pathlib
 import sys
-import textwrap
+import tarfile
+import zipfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-KEYS = ["name", "aliases", "kind", "quantity", "unit", "wavelength_unit", "range", "step", "interpolation", "outside",
+KEYS = ["name", "aliases", "group", "kind", "quantity", "unit", "wavelength_unit", "range", "step", "interpolation", "outside",
         "source", "licence", "prepared_by", "sum", "sha256"]
-PACKAGE = "colour-science 0.4.7 on PyPI"
-LICENCE = "BSD-3-Clause (colour-science); the numbers are those of the source"
-RELATIVE = "relative spectral distribution"
-
-LEF = "CIE 1924 Photopic Standard Observer"
-CMF = "CIE 1931 2 Degree Standard Observer"
-CHART = "BabelColor Average"
-CIE_15 = "CIE 015:2018, Colorimetry, 4th edition"
-LAMPS = {
-    "D65": (["CIE illuminant D65", "daylight"], f"{CIE_15}"),
-    "D50": (["CIE illuminant D50"], f"{CIE_15}"),
-    "FL2": (["F2", "CIE illuminant FL2"], f"{CIE_15}, fluorescent lamps"),
-    "FL11": (["F11", "CIE illuminant FL11"], f"{CIE_15}, fluorescent lamps"),
-    "HP1": (["CIE illuminant HP1", "high pressure sodium"], f"{CIE_15}, high pressure lamps"),
-    "LED-B1": (["CIE illuminant LED-B1"], f"{CIE_15}, LED lamps"),
-    "LED-B2": (["CIE illuminant LED-B2"], f"{CIE_15}, LED lamps"),
-    "LED-B3": (["CIE illuminant LED-B3", "white LED"], f"{CIE_15}, LED lamps"),
-    "LED-B4": (["CIE illuminant LED-B4"], f"{CIE_15}, LED lamps"),
-    "LED-B5": (["CIE illuminant LED-B5"], f"{CIE_15}, LED lamps"),
-}
-# The chart's patches as named by its maker, without the density in brackets.
-GREYS = {"white 9.5 (.05 D)": "white", "neutral 8 (.23 D)": "neutral 8", "neutral 6.5 (.44 D)": "neutral 6.5",
-         "neutral 5 (.70 D)": "neutral 5", "neutral 3.5 (1.05 D)": "neutral 3.5", "black 2 (1.5 D)": "black"}
+GROUPS = {"observer": "Observers", "component": "Components of observers and illuminants", "illuminant": "Illuminants and the sun",
+          "reflectance": "Reflectances", "responsivity": "Responsivities"}
+LICENCES = {"colour": "BSD-3-Clause (colour-science); the numbers are those of the source",
+            "pysilsub": "MIT (pysilsub); the numbers are those of the source",
+            "pvlib": "BSD-3-Clause (pvlib); the numbers are those of the source"}
 
 
 def number(value):
@@ -49,7 +36,10 @@ def number(value):
     return text[:-2] if text.endswith(".0") else text
 
 
-def write(file_name, wavelengths, columns, header):
+WRITTEN = set()
+
+
+def write(file_name, package, wavelengths, columns, header):
     """One table: `columns` is a list of (column name, values)."""
     rows = [",".join(["wavelength_nm", *[name for name, _ in columns]])]
     for i, wavelength in enumerate(wavelengths):
@@ -57,13 +47,11 @@ def write(file_name, wavelengths, columns, header):
     body = "\n".join(rows) + "\n"
     steps = {round(b - a, 9) for a, b in zip(wavelengths, wavelengths[1:])}
     total = math.fsum(float(cell) for row in rows[1:] for cell in row.split(",")[1:])
-    header = header | {
-        "wavelength_unit": "nm (in air)",
+    header = {"wavelength_unit": "nm (in air)", "outside": "zero"} | header | {
         "range": f"{number(wavelengths[0])}-{number(wavelengths[-1])}",
         "step": number(steps.pop()) if len(steps) == 1 else "irregular",
         "interpolation": "linear",
-        "outside": header.get("outside", "zero"),
-        "licence": LICENCE,
+        "licence": LICENCES[package],
         "prepared_by": "data/export.py",
         "sum": repr(total),
         "sha256": hashlib.sha256(body.encode()).hexdigest(),
@@ -71,37 +59,32 @@ def write(file_name, wavelengths, columns, header):
     order = KEYS[:2] + [key for key in header if key not in KEYS] + KEYS[2:]
     lines = [f"# {key}: {header[key]}" for key in order]
     (HERE / file_name).write_text("\n".join(lines) + "\n" + body, newline="\n")
+    WRITTEN.add(HERE / file_name)
 
 
-def export():
-    import colour
+class Packages:
+    """The archives in a folder, and the files in them."""
 
-    lef = colour.SDS_LEFS[LEF]
-    write("v_lambda_1nm.csv", lef.wavelengths, [("v_lambda", lef.values)], {
-        "name": "V(lambda)", "aliases": f"V; v-lambda; photopic; {LEF}; CIE 018:2019 V(lambda)", "kind": "factor",
-        "quantity": "spectral luminous efficiency for photopic vision", "unit": "1",
-        "source": f'CIE 1924, tabulated in CIE 018:2019; {PACKAGE}, colour.SDS_LEFS["{LEF}"]'})
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
 
-    cmfs = colour.MSDS_CMFS[CMF]
-    columns = [(name, cmfs.values[:, i]) for i, name in enumerate(["x_bar", "y_bar", "z_bar"])]
-    write("xyz_1931_1nm.csv", cmfs.wavelengths, columns, {
-        "name": CMF, "aliases": "CIE 1931; XYZ 1931", "column_aliases": "xbar; ybar; zbar", "kind": "factor",
-        "quantity": "colour-matching functions", "unit": "1",
-        "source": f'{CIE_15}; {PACKAGE}, colour.MSDS_CMFS["{CMF}"]'})
+    def pysilsub(self, path):
+        with tarfile.open(self.folder / "pysilsub-0.1.1.tar.gz") as archive:
+            return archive.extractfile(f"pysilsub-0.1.1/{path}").read().decode("utf-8-sig")
 
-    for name, (aliases, source) in LAMPS.items():
-        lamp = colour.SDS_ILLUMINANTS[name]
-        write(f"{name.lower().replace('-', '_')}_5nm.csv", lamp.wavelengths, [("relative", lamp.values)], {
-            "name": name, "aliases": "; ".join(aliases), "kind": "density", "quantity": RELATIVE, "unit": "1/nm (relative)",
-            "source": f'{source}; {PACKAGE}, colour.SDS_ILLUMINANTS["{name}"]'})
+    def pvlib(self, path):
+        with zipfile.ZipFile(self.folder / "pvlib-0.16.1-py3-none-any.whl") as archive:
+            name = next(name for name in archive.namelist() if name.endswith(path))
+            return archive.read(name).decode("utf-8-sig")
 
-    chart = colour.SDS_COLOURCHECKERS[CHART]
-    columns = [(GREYS.get(name, name), sd.values) for name, sd in chart.items()]
-    write("colorchecker_babel_10nm.csv", next(iter(chart.values())).wavelengths, columns, {
-        "name": "ColorChecker", "aliases": f"ColorChecker {CHART}; colour checker", "kind": "factor",
-        "quantity": "spectral reflectance factor", "unit": "1", "outside": "hold",
-        "source": "BabelColor, The ColorChecker pages: average of 30 charts; "
-                  f'{PACKAGE}, colour.SDS_COLOURCHECKERS["{CHART}"]'})
+
+def licences(packages):
+    colour = next(file for file in importlib.metadata.files("colour-science") if "LICENSE" in str(file))
+    texts = [("colour-science 0.4.7", colour.read_text()), ("pysilsub 0.1.1", packages.pysilsub("LICENSE")),
+             ("pvlib 0.16.1", packages.pvlib("LICENSE"))]
+    parts = ["The numbers of the tables in this folder come from the packages below, under the licences below.\n"]
+    parts += [f"{'=' * 20} {name} {'=' * 20}\n\n{text.strip()}\n" for name, text in texts]
+    (HERE / "LICENCES.txt").write_text("\n".join(parts), newline="\n")
 
 
 def read(path):
@@ -119,30 +102,57 @@ def check():
         header, body = read(path)
         missing = [key for key in KEYS if not header.get(key)]
         digest = hashlib.sha256(body.encode()).hexdigest()
-        if missing or digest != header.get("sha256"):
+        if missing or digest != header.get("sha256") or header.get("group") not in GROUPS:
             problems += 1
-            print(f"{path.name}: missing {missing}, sha256 of the rows {digest}")
+            print(f"{path.name}: missing {missing}, group {header.get('group')}, sha256 of the rows {digest}")
     return problems
 
 
 def readme():
-    lines = ["# Tables", "", textwrap.dedent("""\
-        Spectral tables of the library, read by `src/spectrum/library.rs`. Every file has a `#` header with its pedigree; it was
-        written by `export.py`, which also checks the files (`--check`). This list is generated from the headers.
-
-        Illuminant A is a formula and illuminant E a constant; neither has a file. Wavelengths in nm, in air; linear between rows.
-        """), "| file | name | quantity | range, step | source |", "|---|---|---|---|---|"]
-    for path in sorted(HERE.glob("*.csv")):
-        header, _ = read(path)
-        lines.append(f"| `{path.name}` | {header['name']} | {header['quantity']} | {header['range']}, {header['step']} nm "
-                     f"| {header['source']} |")
-    lines += ["", "The numbers come from colour-science (Copyright 2013 Colour Developers), distributed under the BSD-3-Clause licence.",
-              ""]
+    """The list of tables, from their headers."""
+    tables = [(path, *read(path)) for path in sorted(HERE.glob("*.csv"))]
+    lines = ["# Tables", "",
+             "Spectral tables of the library, read by `src/spectrum/library`; `etendue list` shows them by name. Every file has a `#`",
+             "header with its pedigree. `export.py` writes the files and checks them (`--check`); this list is generated from the headers.",
+             "",
+             "Illuminant A is a formula and illuminant E a constant; neither has a file. Wavelengths are in nm, in air; linear between",
+             "rows.",
+             ""]
+    for group, title in GROUPS.items():
+        members = [table for table in tables if table[1]["group"] == group]
+        if not members:
+            continue
+        lines += [f"## {title}", "", "| name | columns | range, step in nm | unit | file |", "|---|---|---|---|---|"]
+        for path, header, body in members:
+            columns = body.split("\n", 1)[0].split(",")[1:]
+            shown = "" if len(columns) == 1 else ", ".join(columns)
+            lines.append(f"| {header['name']} | {shown} | {header['range']}, {header['step']} | {header['unit']} "
+                         f"| [{path.name}]({path.name}) |")
+        lines += ["", "Sources:", ""]
+        lines += [f"* `{path.name}`: {header['source']}" for path, header, _ in members]
+        lines.append("")
+    lines += ["## Licences", "",
+              "The numbers come from colour-science (BSD-3-Clause), pysilsub (MIT) and pvlib (BSD-3-Clause). `LICENCES.txt` holds the",
+              "three texts.", ""]
     (HERE / "README.md").write_text("\n".join(lines), newline="\n")
 
 
-if __name__ == "__main__":
+def main():
     if sys.argv[1:] != ["--check"]:
-        export()
+        if len(sys.argv) != 2:
+            sys.exit(__doc__)
+        # The tables write through this file under its own name, not as the script that runs.
+        import export
+        import tables
+        packages = Packages(sys.argv[1])
+        before = set(HERE.glob("*.csv"))
+        tables.export(packages)
+        for path in before - export.WRITTEN:
+            path.unlink()
+        licences(packages)
         readme()
     sys.exit(1 if check() else 0)
+
+
+if __name__ == "__main__":
+    main()

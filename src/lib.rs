@@ -58,12 +58,12 @@
 //! | 2 | [`surface`] | what reflects | paths |
 //! | 2 | [`observer`] | V(λ), cones, colour matching, α-opic; what a spectrum is to an eye | scenes |
 //! | 2 | [`sensor`] | aperture, acceptance, channels, readout | tracing |
-//! | 3 | [`lecture`] | the equations of a lecture by name, each a call of the library | physics of its own |
 //! | 3 | [`scene`] | the file format, its checks, its messages; instruments and their poses | estimation, hidden defaults |
 //! | 4 | [`plan`] | what will be computed, what is left out, and why; pure | rays, random numbers, clocks |
 //! | 5 | [`estimate`] | numbers for the terms of a plan, with their spread | choosing methods, dropping terms |
 //! | 6 | [`measurement`] | estimates → readings with budget and provenance | printing |
 //! | 7 | [`characterization`] | quality indices of instruments | fitting, printing |
+//! | 7 | [`lecture`] | the equations of a lecture by name, each a call of the library | physics of its own |
 //! | 8 | [`report`] | text, JSON, CSV, plots | computing anything else |
 //! | 9 | `bin/etendue` | arguments, files, screens | physics |
 //!

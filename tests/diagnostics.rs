@@ -131,6 +131,7 @@ fn valid_files() -> Vec<(String, Vec<u8>)> {
         "scenes/room.ron",
         "sensors/meter.ron",
         "sensors/lamp.csv",
+        "sensors/lamp.spdx",
         "sensors/directional.csv",
         "scenes/tetrahedron.obj",
         "scenes/tetrahedron.ply",
@@ -166,7 +167,7 @@ proptest! {
 
     #[test]
     fn damaged_files_end_in_a_scene_or_in_problems_with_a_place(
-        which in 0..6usize, kind in 0..4u8, at in 0.0..1.0_f64, length in 1..200usize, to in 0.0..1.0_f64, byte: u8,
+        which in 0..7usize, kind in 0..4u8, at in 0.0..1.0_f64, length in 1..200usize, to in 0.0..1.0_f64, byte: u8,
     ) {
         let mut files = valid_files();
         let bytes = &mut files[which].1;

@@ -27,7 +27,6 @@ use bench::{Case, Family, cases};
 
 /// Families and single cases that wait, each with the reason.
 const WAITING: &[(&str, &str)] = &[
-    ("g1a.emitter-flux-4", "an intensity that falls as a power of the cosine needs a goniometric source"),
     ("g1h.point-cyl", "cylindrical illuminance needs an instrument of its own"),
     ("g1h.cap-cyl", "cylindrical illuminance needs an instrument of its own"),
     ("g1h.rect-cyl", "cylindrical illuminance needs an instrument of its own"),

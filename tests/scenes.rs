@@ -23,6 +23,7 @@ use etendue::estimate::run::with_threads;
 use etendue::estimate::{Counters, Stop, Watch};
 use etendue::measurement::{Measurement, Reading, measure};
 use etendue::metrology::{Budget, BudgetRow};
+use etendue::observer::{AlphaOpic, Individual};
 use etendue::plan::{Plan, PlanOptions};
 use etendue::report::json::to_json;
 use etendue::scene::{Scene, read_scene};
@@ -114,6 +115,7 @@ fn laws() -> Vec<Law> {
                 ("filled", 1, "L_e", 1000.0),
             ],
         ),
+        law("eye-on-a-display.ron", [1024, 4096], &display()),
         law(
             "tiny-source.ron",
             [1024, 4096],
@@ -138,6 +140,41 @@ fn laws() -> Vec<Law> {
             ..law("sun-and-window.ron", [65536, 65536], &[])
         },
     ]
+}
+
+/// A display of 200 cd/m² with primaries of 465 nm, 532 nm and 630 nm: functions of the observers there, as they are tabulated.
+fn display() -> Vec<(&'static str, usize, &'static str, f64)> {
+    let mixed = |w: [f64; 3]| 0.7087 * w[0] + 0.7956 * w[1] + w[2];
+    let (luminance, v) = (200.0, mixed([0.0739, 0.8849624, 0.265]));
+    let of = |w: [f64; 3]| luminance * mixed(w) / v;
+    let (a, b, d) = (0.3f64, 0.17f64, 0.6f64);
+    let half = |a: f64, b: f64| a / a.hypot(d) * (b / a.hypot(d)).atan();
+    let omega = 2.0 * (half(a, b) + half(b, a));
+    let sixty = Individual { age_yr: 60.0, field_deg: 4.0 }.fundamentals().unwrap();
+    let [l, m, s] = sixty.map(|cone| of([465.0, 532.0, 630.0].map(|nm| cone.at(nm))) / 683.002);
+    let mut all = vec![
+        ("colorimeter", 0, "X", of([0.2511, 0.18914, 0.6424])),
+        ("colorimeter", 0, "Y", luminance),
+        ("colorimeter", 0, "Z", of([1.5281, 0.03693564, 0.00004999999])),
+        ("young eye", 0, "L", of([0.0806894, 0.79329, 0.400711]) / 683.002),
+        ("young eye", 0, "M", of([0.144541, 0.950309, 0.062112]) / 683.002),
+        ("young eye", 0, "S", of([0.738268, 0.0105766, 0.0]) / 683.002),
+        ("old eye", 0, "L", l),
+        ("old eye", 0, "M", m),
+        ("old eye", 0, "S", s),
+        ("at the eye", 0, "E_v", omega * luminance),
+        ("at the eye", 0, "E′_v", omega * of([0.62, 0.781, 0.003335]) * 1700.05 / 683.002),
+        ("body clock", 0, "E_v", omega * luminance),
+    ];
+    let alpha = [
+        ("EDI_sc", AlphaOpic::SCone, [0.73704, 0.0059778, 0.0]),
+        ("EDI_mc", AlphaOpic::MCone, [0.23228, 0.96997, 0.055499]),
+        ("EDI_lc", AlphaOpic::LCone, [0.12834, 0.80795, 0.36917]),
+        ("EDI_rh", AlphaOpic::Rhodopic, [0.62, 0.781, 0.003335]),
+        ("EDI_mel", AlphaOpic::Melanopic, [0.78522, 0.48407, 0.00041796]),
+    ];
+    all.extend(alpha.map(|(name, alpha, w)| ("body clock", 0, name, omega * of(w) / 683.002 / alpha.elr_of_d65())));
+    all
 }
 
 /// Disc of 0.1 m and 1000 cd/m² above a parallel plane, lx.
@@ -302,6 +339,7 @@ fn what_is_left_out_is_not_done() {
         "ideal-integrating-sphere.ron",
         "laser-line.ron",
         "narrow-acceptance.ron",
+        "eye-on-a-display.ron",
     ] {
         assert_eq!(read(&scene(file), false, 1024, 0).counters, Counters::default(), "{file}");
     }

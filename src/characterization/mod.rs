@@ -1,1 +1,12 @@
 //! Quality indices of instruments, from their curves.
+//!
+//! | file | index | of |
+//! |---|---|---|
+//! | `spectral_mismatch` | f1′, spectral mismatch correction factor F | a spectral responsivity |
+//! | `directional_mismatch` | f2 | a directional response |
+//!
+//! Pure functions on curves. The defining standards (ISO/CIE 19476, CIE S 023, DIN 5032-7) were not at hand when this was written; what
+//! could not be checked against their text is an input here, and each file says so.
+
+pub mod directional_mismatch;
+pub mod spectral_mismatch;

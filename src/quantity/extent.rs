@@ -1,4 +1,4 @@
-//! What a flux is spread over: distance, area, solid angle, étendue and duration.
+//! What a flux is spread over: distance, area, solid angle, projected solid angle, étendue and duration.
 //!
 //! ```text
 //! Ω = 4π sin²(α/2)            cone of half angle α
@@ -50,6 +50,8 @@ extents! {
     Area, "m²";
     /// A solid angle, in steradians.
     SolidAngle, "sr";
+    /// A projected solid angle, `∫ cos θ dω` about the normal of a surface, in steradians.
+    ProjectedSolidAngle, "sr";
     /// An étendue: area times projected solid angle, in m² sr.
     Etendue, "m² sr";
     /// A duration, in seconds.

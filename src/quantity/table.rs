@@ -9,6 +9,9 @@
 //! | radiance `L = d²Φ/(dA cos θ dω)` | W/(m² sr) | cd/m² | 1/(m² s sr) |
 //! | intensity `I = dΦ/dω` | W/sr | cd | 1/(s sr) |
 //!
+//! Scotopic and mesopic quantities have the units of the luminous column, the five α-opic ones those of the radiant column;
+//! [`cell`](super::cell) has the words of all of them.
+//!
 //! A cell is [`Quantity<K, S>`]. Values of one cell add, subtract, scale and divide; nothing else is defined here. The
 //! products between cells are in [`relation`](super::relation). There is no conversion between systems: it needs a
 //! spectrum.
@@ -48,6 +51,8 @@ use std::iter::Sum;
 use std::marker::PhantomData;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+pub use super::cell::*;
+
 /// The rows of the table: markers without size.
 pub mod kind {
     /// Energy `Q`.
@@ -81,6 +86,27 @@ pub mod system {
     /// Number of photons.
     #[derive(Debug, Clone, Copy)]
     pub struct Photon;
+    /// Weighted with V'(λ), the rods' luminous efficiency.
+    #[derive(Debug, Clone, Copy)]
+    pub struct Scotopic;
+    /// Weighted with V_mes(λ) of one state of adaptation between photopic and scotopic vision.
+    #[derive(Debug, Clone, Copy)]
+    pub struct Mesopic;
+    /// Weighted with the action spectrum of the S-cone-opic system.
+    #[derive(Debug, Clone, Copy)]
+    pub struct SConeOpic;
+    /// Weighted with the action spectrum of the M-cone-opic system.
+    #[derive(Debug, Clone, Copy)]
+    pub struct MConeOpic;
+    /// Weighted with the action spectrum of the L-cone-opic system.
+    #[derive(Debug, Clone, Copy)]
+    pub struct LConeOpic;
+    /// Weighted with the action spectrum of the rhodopic system.
+    #[derive(Debug, Clone, Copy)]
+    pub struct Rhodopic;
+    /// Weighted with the action spectrum of the melanopic system.
+    #[derive(Debug, Clone, Copy)]
+    pub struct Melanopic;
 }
 
 /// A number in the unit of one cell of the table: row `K`, column `S`.
@@ -88,58 +114,6 @@ pub mod system {
 pub struct Quantity<K, S> {
     value: f64,
     cell: PhantomData<(K, S)>,
-}
-
-/// Name, symbol and unit of a cell.
-pub trait Cell {
-    /// Standard term, e.g. "illuminance".
-    const NAME: &'static str;
-    /// Symbol of the quantity, e.g. "E_v".
-    const SYMBOL: &'static str;
-    /// Symbol of the unit, e.g. "lx"; "1" for a number.
-    const UNIT: &'static str;
-    /// Name of the unit, e.g. "lux".
-    const UNIT_NAME: &'static str;
-}
-
-macro_rules! cells {
-    ($($alias:ident = $kind:ident, $system:ident: $name:literal, $symbol:literal, $unit:literal, $unit_name:literal;)*) => {
-        $(
-            #[doc = concat!("The ", $name, " `", $symbol, "`, in ", $unit_name, " (", $unit, ").")]
-            pub type $alias = Quantity<kind::$kind, system::$system>;
-
-            impl Cell for $alias {
-                const NAME: &'static str = $name;
-                const SYMBOL: &'static str = $symbol;
-                const UNIT: &'static str = $unit;
-                const UNIT_NAME: &'static str = $unit_name;
-            }
-        )*
-
-        #[cfg(test)]
-        const ALL_CELLS: &[[&str; 4]] = &[$([$name, $symbol, $unit, $unit_name]),*];
-    };
-}
-
-cells! {
-    RadiantEnergy = Energy, Radiant: "radiant energy", "Q_e", "J", "joule";
-    LuminousEnergy = Energy, Luminous: "luminous energy", "Q_v", "lm s", "lumen second";
-    PhotonNumber = Energy, Photon: "photon number", "N_p", "1", "one";
-    RadiantFlux = Flux, Radiant: "radiant flux", "Φ_e", "W", "watt";
-    LuminousFlux = Flux, Luminous: "luminous flux", "Φ_v", "lm", "lumen";
-    PhotonFlux = Flux, Photon: "photon flux", "Φ_p", "1/s", "one per second";
-    Irradiance = FluxDensityIn, Radiant: "irradiance", "E_e", "W/m²", "watt per square metre";
-    Illuminance = FluxDensityIn, Luminous: "illuminance", "E_v", "lx", "lux";
-    PhotonIrradiance = FluxDensityIn, Photon: "photon irradiance", "E_p", "1/(m² s)", "one per square metre second";
-    RadiantExitance = FluxDensityOut, Radiant: "radiant exitance", "M_e", "W/m²", "watt per square metre";
-    LuminousExitance = FluxDensityOut, Luminous: "luminous exitance", "M_v", "lm/m²", "lumen per square metre";
-    PhotonExitance = FluxDensityOut, Photon: "photon exitance", "M_p", "1/(m² s)", "one per square metre second";
-    Radiance = Radiance, Radiant: "radiance", "L_e", "W/(m² sr)", "watt per square metre steradian";
-    Luminance = Radiance, Luminous: "luminance", "L_v", "cd/m²", "candela per square metre";
-    PhotonRadiance = Radiance, Photon: "photon radiance", "L_p", "1/(m² s sr)", "one per square metre second steradian";
-    RadiantIntensity = Intensity, Radiant: "radiant intensity", "I_e", "W/sr", "watt per steradian";
-    LuminousIntensity = Intensity, Luminous: "luminous intensity", "I_v", "cd", "candela";
-    PhotonIntensity = Intensity, Photon: "photon intensity", "I_p", "1/(s sr)", "one per second steradian";
 }
 
 impl<K, S> Quantity<K, S> {
@@ -283,17 +257,6 @@ where
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use std::collections::BTreeSet;
-
-    #[test]
-    fn the_table_has_eighteen_cells_with_distinct_names_and_symbols() {
-        assert_eq!(ALL_CELLS.len(), 18);
-        for column in 0..2 {
-            let distinct: BTreeSet<_> = ALL_CELLS.iter().map(|cell| cell[column]).collect();
-            assert_eq!(distinct.len(), 18);
-        }
-        assert!(ALL_CELLS.iter().flatten().all(|word| !word.is_empty()));
-    }
 
     #[test]
     fn a_quantity_is_as_large_as_its_number() {

@@ -5,10 +5,14 @@
 //! | `text.rs` | a table for a person |
 //! | `json.rs` | everything, for programs; numbers keep all their digits |
 //! | `csv.rs` | a row a reading, for spreadsheets |
+//! | `lecture/` | equations of the lecture and the table of quantities, as text and JSON |
+//! | `spectrum/` | the quantities of one spectrum, in the same three forms |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
 pub mod csv;
 pub mod json;
+pub mod lecture;
 #[cfg(feature = "plot")]
 pub mod plot;
+pub mod spectrum;
 pub mod text;

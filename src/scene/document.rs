@@ -105,6 +105,13 @@ impl Document {
         }
     }
 
+    /// A text that is one value as it stands: no quotes, no escapes, no comments.
+    pub(super) fn of_text(file: &str, text: &str) -> Document {
+        let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
+        let root = Node { span: 0..text.len(), kind: Kind::Text(text.into()) };
+        Document { file: file.into(), text: text.into(), line_starts, root }
+    }
+
     /// Where some bytes of the text are.
     pub(super) fn place(&self, span: &Range<usize>) -> Place<'_> {
         let start = span.start.min(self.text.len());

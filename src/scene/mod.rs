@@ -11,11 +11,13 @@
 //! | `files`, `reading` | the door to files, the root, what has been read already |
 //! | `placement`, `shape_reader`, `mesh_reader`, `mesh_file` | where things are, and what shape they have |
 //! | `spectrum_reader`, `factor_range`, `surface_reader`, `strength` | spectra, factors, surfaces, how strong a source is |
+//! | `spectrum_argument` | one spectrum or factor given as text |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
-//! | `sensor_reader`, `channel_reader`, `directional_table` | sensor files |
+//! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
 //! | `reader` | the scene as a whole |
 //! | `checks` | what only the scene as a whole can show |
 
+mod adjustment;
 mod channel_reader;
 mod checks;
 mod decode;
@@ -28,14 +30,16 @@ pub mod instrument;
 mod instrument_reader;
 pub mod mesh_file;
 mod mesh_reader;
-mod nearest;
+pub(crate) mod nearest;
 mod object_reader;
+mod observer_reader;
 mod placement;
 mod reader;
 mod reading;
 mod sensor_reader;
 mod shape_reader;
 mod source_reader;
+pub mod spectrum_argument;
 mod spectrum_reader;
 mod strength;
 mod surface_reader;
@@ -48,6 +52,8 @@ pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};
 pub use instrument_reader::MOST_POSES;
 pub use reader::{read_scene, scene_from_text};
+pub use sensor_reader::sensor_from_file;
+pub use spectrum_argument::{GivenFactor, GivenSpectrum, factor_from_text, spectrum_from_text};
 
 use crate::geometry::shape::Shape;
 use crate::source::Source;
@@ -79,6 +85,8 @@ pub struct Scene {
     pub sources: Vec<Source>,
     /// What is read, at least one instrument.
     pub instruments: Vec<Instrument>,
+    /// How curve files were understood: converted units, decimal commas, gaps. No problem, but to be said.
+    pub remarks: Vec<String>,
     /// A hash of every file that the scene was read from; zero for a scene made in memory.
     pub hash: u64,
 }

@@ -7,6 +7,11 @@ fn plain(name: &str) -> Vec<char> {
     name.chars().filter(|c| c.is_alphanumeric()).take(64).flat_map(char::to_lowercase).collect()
 }
 
+/// Whether two names are the same but for case and separators.
+pub(super) fn same(a: &str, b: &str) -> bool {
+    plain(a) == plain(b)
+}
+
 fn distance(a: &[char], b: &[char]) -> usize {
     let mut rows = vec![vec![0usize; b.len() + 1]; a.len() + 1];
     for (i, row) in rows.iter_mut().enumerate() {
@@ -29,7 +34,7 @@ fn distance(a: &[char], b: &[char]) -> usize {
 }
 
 /// The allowed name that is close enough to `found` to be offered, if any.
-pub(super) fn nearest<'a>(found: &str, allowed: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(found: &str, allowed: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = plain(found);
     let mut best: Option<(usize, &str)> = None;
     for name in allowed {
@@ -46,7 +51,7 @@ pub(super) fn nearest<'a>(found: &str, allowed: impl IntoIterator<Item = &'a str
 }
 
 /// The names that are nearest to `found`, nearest first, at most `most` of them, and how many more there are.
-pub(super) fn by_distance<'a>(found: &str, names: impl IntoIterator<Item = &'a str>, most: usize) -> (Vec<&'a str>, usize) {
+pub(crate) fn by_distance<'a>(found: &str, names: impl IntoIterator<Item = &'a str>, most: usize) -> (Vec<&'a str>, usize) {
     let wanted = plain(found);
     let mut all: Vec<(usize, &str)> = names.into_iter().map(|name| (distance(&wanted, &plain(name)), name)).collect();
     all.sort_unstable();
@@ -55,7 +60,7 @@ pub(super) fn by_distance<'a>(found: &str, names: impl IntoIterator<Item = &'a s
 }
 
 /// `did you mean …? allowed: …`
-pub(super) fn suggestion(found: &str, allowed: &[&str]) -> String {
+pub(crate) fn suggestion(found: &str, allowed: &[&str]) -> String {
     let list = allowed.join(", ");
     match nearest(found, allowed.iter().copied()) {
         Some(name) => format!("did you mean `{name}`? allowed: {list}"),

@@ -31,7 +31,7 @@ pub fn read_scene(path: &str, files: &dyn Files, root: Option<&str>) -> Result<S
         return Err(Diagnostics(vec![Diagnostic::of_file(&path, format!("the scene lies outside of the root `{root}`"), Some(help))]));
     }
     let mut reading = Reading::new(files, &path, root);
-    let document = reading.first_document(&path);
+    let document = reading.first_document(&path, "scene");
     let scene = document.and_then(|document| read_document(&document, &mut reading));
     match scene {
         Some(scene) if reading.problems.count() == 0 => Ok(scene),
@@ -120,6 +120,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
     }
     scene.surfaces = surfaces.list;
     scene.hash = reading.hash;
+    scene.remarks = std::mem::take(&mut reading.remarks);
     checks::run(&scene, &places, &mut reading.problems);
     Some(scene)
 }

@@ -10,7 +10,7 @@ use super::files::{FileProblem, Files, LONGEST_DOCUMENT_BYTES, MOST_BYTES, hashe
 use super::nearest::{by_distance, nearest};
 use crate::geometry::mesh::Mesh;
 use crate::sensor::Sensor;
-use crate::spectrum::Table;
+use crate::spectrum::file::{CurveFile, Meaning};
 
 /// Most files that are offered instead of a missing one.
 const OFFERED: usize = 5;
@@ -31,14 +31,17 @@ fn instead_of(file: &str, neighbours: &[String]) -> Option<String> {
 /// Files that have been read, problems that have been found.
 pub(super) struct Reading<'f> {
     files: &'f dyn Files,
-    root: String,
+    /// The folder that no name may leave; none if names are taken as they are.
+    root: Option<String>,
     bytes_left: u64,
     /// Problems of all files so far.
     pub(super) problems: Problems,
     /// Hash of everything that was read, file by file in the order of reading.
     pub(super) hash: u64,
-    /// Curves by path; none for one that has problems.
-    pub(super) curves: BTreeMap<String, Option<Table>>,
+    /// Curves by path and meaning; none for one that has problems.
+    pub(super) curves: BTreeMap<(String, Meaning), Option<CurveFile>>,
+    /// How curve files were understood, file by file.
+    pub(super) remarks: Vec<String>,
     /// Sensors by path; none for one that has problems.
     pub(super) sensors: BTreeMap<String, Option<Arc<Sensor>>>,
     /// Meshes by path and placement; none for one that has problems.
@@ -50,22 +53,29 @@ impl<'f> Reading<'f> {
     pub(super) fn new(files: &'f dyn Files, scene: &str, root: String) -> Self {
         Self {
             files,
-            root,
+            root: Some(root),
             bytes_left: MOST_BYTES,
             problems: Problems::new(scene),
             hash: 0,
             curves: BTreeMap::new(),
+            remarks: Vec::new(),
             sensors: BTreeMap::new(),
             meshes: BTreeMap::new(),
         }
     }
 
+    /// Nothing read yet; names of files are taken as they are, because whoever runs the program has written them.
+    pub(super) fn anywhere(files: &'f dyn Files, first_file: &str) -> Self {
+        Self { root: None, ..Self::new(files, first_file, String::new()) }
+    }
+
     /// The path of the file that a value names.
     pub(super) fn path(&mut self, mention: &Value, name: &str) -> Option<String> {
-        match resolved(&mention.document.file, name, &self.root) {
+        let Some(root) = &self.root else { return Some(name.into()) };
+        match resolved(&mention.document.file, name, root) {
             Ok(path) => Some(path),
             Err(why) => {
-                let root = if self.root.is_empty() { "the current folder".to_string() } else { format!("`{}`", self.root) };
+                let root = if root.is_empty() { "the current folder".to_string() } else { format!("`{root}`") };
                 let help = format!(
                     "names are relative to the file that mentions them and stay within {root}; move the file there, or give the folder that holds both: `--root DIR`"
                 );
@@ -146,7 +156,7 @@ impl<'f> Reading<'f> {
     }
 
     /// The document of the scene file itself.
-    pub(super) fn first_document(&mut self, path: &str) -> Option<Document> {
+    pub(super) fn first_document(&mut self, path: &str, what: &str) -> Option<Document> {
         match self.files.read(path, LONGEST_DOCUMENT_BYTES) {
             Ok(bytes) => {
                 self.hash = hashed(self.hash, &bytes);
@@ -165,7 +175,7 @@ impl<'f> Reading<'f> {
                     }
                     FileProblem::Unreadable(_) => None,
                 };
-                self.problems.add(Diagnostic::of_file(path, format!("the scene cannot be read: {problem}"), help));
+                self.problems.add(Diagnostic::of_file(path, format!("the {what} cannot be read: {problem}"), help));
                 None
             }
         }

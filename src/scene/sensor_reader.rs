@@ -13,16 +13,37 @@
 //! |---|---|
 //! | aperture | `Point`, `Disc(radius_mm: 5)`, `Rectangle(width_mm: 10, height_mm: 8)`; `_m` for metres |
 //! | acceptance | `Cosine`, `Cone(half_angle_deg: 0.5)`, `Directional("directional.csv")` |
-//! | channels | `(name: …, responsivity: …, reads: …)`; what it can read: `channel_reader.rs` |
+//! | channels | a list of `(name: …, responsivity: …, reads: …)` (`channel_reader.rs`) and `Observer("CIE 1931")` (`observer_reader.rs`), or one `Observer(…)` |
 
 use std::sync::Arc;
 
 use super::channel_reader::read_channel;
 use super::decode::Value;
+use super::diagnostic::Diagnostics;
 use super::directional_table::read_directional;
 use super::document::Kind;
+use super::files::{Files, normalised, root_of};
+use super::observer_reader::{is_observer, read_observer};
 use super::reading::Reading;
-use crate::sensor::{Acceptance, Aperture, Sensor};
+use crate::sensor::{Acceptance, Aperture, Channel, Sensor};
+
+/// Reads one sensor file and the files that it mentions, without a scene.
+///
+/// `path` is what `files` is asked for; the names in the file may not leave the folder `root`, by default as for a scene.
+///
+/// # Errors
+/// Every problem of every file, at least one.
+pub fn sensor_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Result<Sensor, Diagnostics> {
+    let path = normalised(path);
+    let root = root.map_or_else(|| root_of(&path), normalised);
+    let mut reading = Reading::new(files, &path, root);
+    let document = reading.first_document(&path, "sensor file");
+    let sensor = document.and_then(|document| read_sensor_body(&Value::root(&document), &path, &mut reading));
+    match sensor {
+        Some(sensor) if reading.problems.count() == 0 => Ok(sensor),
+        _ => Err(reading.problems.finish()),
+    }
+}
 
 /// The sensor of an instrument: the name of a file, or the sensor itself.
 pub(super) fn read_sensor(value: &Value, reading: &mut Reading) -> Option<Arc<Sensor>> {
@@ -68,21 +89,26 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
     let aperture = fields.require("aperture", "Point", problems).and_then(|v| read_aperture(&v, reading));
     let acceptance = fields.require("acceptance", "Cosine", &mut reading.problems).and_then(|v| read_acceptance(&v, reading));
     let channels = fields.require("channels", "[(name: \"E_v\", responsivity: \"V\", reads: Illuminance)]", &mut reading.problems);
-    let items = channels.as_ref().and_then(|v| v.list("channels", &mut reading.problems));
-    let mut list = Vec::new();
-    let mut names: Vec<String> = Vec::new();
+    let items =
+        channels.as_ref().and_then(|v| if is_observer(v) { Some(vec![v.clone()]) } else { v.list("channels", &mut reading.problems) });
+    let mut list: Vec<Channel> = Vec::new();
     for item in items.iter().flatten() {
-        let Some(channel) = read_channel(item, aperture, acceptance.as_ref(), reading) else { continue };
-        if names.contains(&channel.name) {
-            item.problem_at(
-                &item.title_span(),
-                &mut reading.problems,
-                format!("two channels are called \"{}\"", channel.name),
-                "give each its own name",
-            );
+        let observer = is_observer(item);
+        let channels = if observer {
+            read_observer(item, acceptance.as_ref(), reading).unwrap_or_default()
+        } else {
+            read_channel(item, aperture, acceptance.as_ref(), reading).into_iter().collect()
+        };
+        let known = channels.iter().find(|channel| list.iter().any(|earlier| earlier.name == channel.name));
+        if let Some(channel) = known {
+            let (span, help) = if observer {
+                (item.name_span(), "give the two a sensor each: the names of an observer's channels are fixed")
+            } else {
+                (item.title_span(), "give each its own name")
+            };
+            item.problem_at(&span, &mut reading.problems, format!("two channels are called \"{}\"", channel.name), help);
         }
-        names.push(channel.name.clone());
-        list.push(channel);
+        list.extend(channels);
     }
     if let (Some(channels), Some([])) = (&channels, items.as_deref()) {
         channels.problem(

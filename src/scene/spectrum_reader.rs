@@ -2,10 +2,12 @@
 //!
 //! | spectrum | what it is |
 //! |---|---|
-//! | `"D65"`, `"lamp.csv"` | from the library, or a file that ends in `.csv` or `.txt` |
+//! | `"D65"`, `"lamp.csv"` | from the library, or a file that ends in `.csv`, `.txt` or `.spdx` |
 //! | `BlackBody(2856)` | by Planck, K |
+//! | `Daylight(cct_k: 5500)` | CIE D series, 4000 K to 25000 K |
 //! | `Line(633)`, `Lines([(435.8, 1.0), (546.1, 0.8)])` | nm; nm and relative power |
 //! | `Gaussian(centre_nm: 530, fwhm_nm: 30)` | FWHM = 2 √(2 ln 2) σ |
+//! | `Led(peak_nm: 530, fwhm_nm: 30)` | by Ohno |
 //! | `Flat(from_nm: 380, to_nm: 780)` | the same per nm |
 //! | `Sum([(0.7, "A"), (0.3, Line(546))])` | weights of parts that are first scaled to an integral of one |
 //! | `Filtered(spectrum, factor)` | a spectrum times a factor |
@@ -25,11 +27,11 @@ use super::factor_range::{LARGEST, outside_of};
 use super::files::LONGEST_CURVE_BYTES;
 use super::nearest::nearest;
 use super::reading::Reading;
-use crate::spectrum::table_text::{TextRules, parse_bytes};
+use crate::spectrum::file::{self, CurveFile, FileRules, Meaning};
 use crate::spectrum::{Density, Factor, Line, Outside, SpectrumError, Table, library};
 
-const SPECTRA: [&str; 7] = ["BlackBody", "Line", "Lines", "Gaussian", "Flat", "Sum", "Filtered"];
-const FACTORS: [&str; 6] = ["Constant", "Band", "Gaussian", "Product", "Sum", "Scaled"];
+pub(super) const SPECTRA: [&str; 9] = ["BlackBody", "Daylight", "Line", "Lines", "Gaussian", "Led", "Flat", "Sum", "Filtered"];
+pub(super) const FACTORS: [&str; 6] = ["Constant", "Band", "Gaussian", "Product", "Sum", "Scaled"];
 
 /// Longest wavelength that is taken for one, nm.
 const LONGEST_NM: f64 = 1e9;
@@ -45,16 +47,16 @@ fn sigma_nm(fwhm_nm: f64) -> f64 {
 }
 
 /// Whether a text names a file rather than an entry of the library.
-fn is_file(name: &str) -> bool {
+pub(super) fn is_file(name: &str) -> bool {
     let lower = name.to_lowercase();
-    lower.ends_with(".csv") || lower.ends_with(".txt")
+    [".csv", ".txt", ".spdx"].iter().any(|ending| lower.ends_with(ending))
 }
 
 /// Reads a spectrum; its absolute scale is what the file or the law says.
 pub(super) fn read_spectrum(value: &Value, reading: &mut Reading) -> Option<Density> {
     if let Kind::Text(name) = &value.node.kind {
         if is_file(name) {
-            let table = read_curve(value, name, reading)?;
+            let table = read_curve(value, name, Meaning::Density, reading)?;
             let density = Density::table(table);
             return checked(value, density, reading);
         }
@@ -70,6 +72,16 @@ pub(super) fn read_spectrum(value: &Value, reading: &mut Reading) -> Option<Dens
             let temperature_k =
                 item.number_in("the temperature", "above 0 K, up to 1e9 K", |t| t > 0.0 && t <= 1e9, &mut reading.problems)?;
             checked(value, Density::black_body(temperature_k), reading)
+        }
+        "Daylight" => {
+            let fields = value.fields("`Daylight`", &["cct_k"], &mut reading.problems)?;
+            let item = fields.require("cct_k", "5500", &mut reading.problems)?;
+            let cct_k = item.number(&mut reading.problems)?;
+            checked(&item, Density::daylight(cct_k), reading)
+        }
+        "Led" => {
+            let numbers = read_keyed(value, &["peak_nm", "fwhm_nm"], reading)?;
+            checked(value, Density::led(numbers[0], numbers[1]), reading)
         }
         "Line" => {
             let item = value.positional(1, "Line(633)", &mut reading.problems)?.into_iter().next()?;
@@ -153,7 +165,7 @@ pub(super) fn read_factor(value: &Value, outside: Outside, reading: &mut Reading
     match &value.node.kind {
         Kind::Number(_) => return value.number(&mut reading.problems).map(Factor::Constant),
         Kind::Text(name) if is_file(name) => {
-            return read_curve(value, name, reading).map(|table| Factor::Table(table.with_outside(outside)));
+            return read_curve(value, name, Meaning::Factor, reading).map(|table| Factor::Table(table.with_outside(outside)));
         }
         Kind::Text(name) => {
             let found = library::factor(name).map_err(|error| unknown(value, &error, "factor", reading)).ok()?;
@@ -256,7 +268,7 @@ fn read_keyed(value: &Value, keys: &[&str], reading: &mut Reading) -> Option<Vec
     let numbers: Vec<Option<f64>> = keys
         .iter()
         .map(|&key| {
-            let found = fields.require(key, "500", &mut reading.problems)?;
+            let found = fields.require(key, if key == "fwhm_nm" { "30" } else { "500" }, &mut reading.problems)?;
             if key == "fwhm_nm" {
                 return found.number_in(
                     "the full width at half maximum",
@@ -279,10 +291,14 @@ fn unknown(value: &Value, error: &library::LookupError, what: &str, reading: &mu
     let (message, help) = match error {
         library::LookupError::Unknown { name, nearest } => {
             let near: Vec<String> = nearest.iter().map(|n| format!("\"{n}\"")).collect();
-            let files = "a file name ends in .csv or .txt";
+            let files = "a file name ends in .csv, .txt or .spdx";
             (format!("the library has no {what} called \"{name}\""), format!("nearest: {}; {files}", near.join(", ")))
         }
-        other @ library::LookupError::OtherKind { .. } => {
+        library::LookupError::Ambiguous { name, candidates } => {
+            let some: Vec<String> = candidates.iter().take(6).map(|n| format!("\"{n}\"")).collect();
+            (format!("\"{name}\" names several curves of the library"), format!("say which of {}: {}", candidates.len(), some.join(", ")))
+        }
+        other => {
             let example = if what == "spectrum" {
                 "write a spectrum such as \"A\", \"D65\", \"LED-B3\""
             } else {
@@ -294,39 +310,32 @@ fn unknown(value: &Value, error: &library::LookupError, what: &str, reading: &mu
     value.problem(&mut reading.problems, message, help);
 }
 
-/// Reads a curve file: wavelength in nm and one value.
-fn read_curve(value: &Value, name: &str, reading: &mut Reading) -> Option<Table> {
+/// Reads a curve file; what was understood and not plainly said goes into the remarks.
+fn read_curve(value: &Value, name: &str, meaning: Meaning, reading: &mut Reading) -> Option<Table> {
     let path = reading.path(value, name)?;
-    if let Some(known) = reading.curves.get(&path) {
-        return known.clone();
+    let key = (path, meaning);
+    if let Some(known) = reading.curves.get(&key) {
+        return known.as_ref().map(|curve| curve.table.clone());
     }
-    let table = reading.bytes(value, &path, "curve file", LONGEST_CURVE_BYTES).and_then(|bytes| parse_curve(&path, &bytes, reading));
-    reading.curves.insert(path, table.clone());
+    let bytes = reading.bytes(value, &key.0, "curve file", LONGEST_CURVE_BYTES);
+    let curve = bytes.and_then(|bytes| parse_curve(&key.0, &bytes, meaning, reading));
+    let table = curve.as_ref().map(|curve| curve.table.clone());
+    reading.curves.insert(key, curve);
     table
 }
 
-fn parse_curve(path: &str, bytes: &[u8], reading: &mut Reading) -> Option<Table> {
-    let mut text = match parse_bytes(bytes, &TextRules::default()) {
-        Ok(text) => text,
+fn parse_curve(path: &str, bytes: &[u8], meaning: Meaning, reading: &mut Reading) -> Option<CurveFile> {
+    match file::read_curve(bytes, meaning, &FileRules::default()) {
+        Ok(curve) => {
+            reading.remarks.extend(curve.remarks.iter().map(|remark| format!("{path}: {remark}")));
+            Some(curve)
+        }
         Err(problems) => {
             let lines = lines_of(bytes, problems.iter().map(|problem| problem.line));
             for problem in problems {
                 let line = String::from_utf8_lossy(lines.get(&problem.line).map_or(&[][..], |line| line));
                 reading.problems.add(Diagnostic::of_column(path, problem.line, problem.column, &line, problem.message, problem.help));
             }
-            return None;
-        }
-    };
-    if text.columns.len() != 1 {
-        let help = "a curve has two columns: wavelength in nm, value".to_string();
-        reading.problems.add(Diagnostic::of_file(path, format!("the file has {} columns of values", text.columns.len()), Some(help)));
-        return None;
-    }
-    let values = text.columns.pop()?;
-    match Table::new(text.wavelengths_nm, values, Outside::Zero) {
-        Ok(table) => Some(table),
-        Err(error) => {
-            reading.problems.add(Diagnostic::of_file(path, error.to_string(), None));
             None
         }
     }

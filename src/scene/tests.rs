@@ -1,5 +1,6 @@
 //! Scenes that are read, against closed forms.
 
+mod observers;
 mod syntax;
 
 use std::f64::consts::PI;

@@ -7,6 +7,9 @@ use super::error::{band, finite, not_negative, positive};
 use super::factor::GAUSSIAN_REACH_SIGMAS;
 use super::{Factor, Outside, SpectrumError, Support, Table, black_body, product_integral};
 
+/// The width `w` in Ohno's model of an LED as a multiple of its full width at half maximum: `1/(2 √(−ln g))` where `g + 2 g⁵ = 3/2`.
+pub const LED_WIDTH_OVER_FWHM: f64 = 1.084806812374024135;
+
 /// A spectral line of zero width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
@@ -109,6 +112,23 @@ impl Continuum {
     }
 }
 
+/// `from_nm`, `from_nm + step_nm`, … up to and with `to_nm`, nm. Errors if the band is not one, the step not positive and finite, or the
+/// steps too many.
+pub(super) fn steps(from_nm: f64, to_nm: f64, step_nm: f64) -> Result<Vec<f64>, SpectrumError> {
+    const MOST_STEPS: f64 = 1e7;
+    let from_nm = positive("the first wavelength in nm", from_nm)?;
+    let (_, to_nm) = band(from_nm, to_nm)?;
+    let step_nm = positive("the step in nm", step_nm)?;
+    let quotient = (to_nm - from_nm) / step_nm;
+    if quotient > MOST_STEPS {
+        return Err(SpectrumError::Parameter { name: "the number of steps", value: quotient, allowed: "at most ten million" });
+    }
+    // A quotient that is a whole number but for its rounding is one.
+    let whole = quotient.round();
+    let last = if (quotient - whole).abs() <= 4.0 * f64::EPSILON * whole.max(to_nm / step_nm) { whole } else { quotient.floor() };
+    Ok((0..=last as u64).map(|i| from_nm + i as f64 * step_nm).collect())
+}
+
 /// A function of wavelength per nm: a continuum and lines, times one scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Density {
@@ -166,6 +186,60 @@ impl Density {
         Ok(Self { scale: power, ..Self::assemble(Continuum::Gaussian { centre_nm, sigma_nm }, Vec::new()) })
     }
 
+    /// A light-emitting diode of one colour by Ohno's model, of area 1, per nm: `(g + 2 g⁵)/3` with `g = exp(−(λ − peak)²/w²)`
+    /// (Y. Ohno, Optical Engineering 44, 111302, 2005).
+    ///
+    /// `fwhm_nm` is the full width at half maximum that the result has. The width `w` in the formula, there called half spectral width
+    /// and written Δλ₀.₅, is [`LED_WIDTH_OVER_FWHM`] times that: a model given by its `w` is `led(peak_nm, w / LED_WIDTH_OVER_FWHM)`.
+    /// Since `g⁵` is a bell curve as well, the model is the sum of two Gaussians, and its integrals are as good as theirs.
+    ///
+    /// # Errors
+    /// If the peak or the width is not positive and finite.
+    ///
+    /// ```
+    /// # use etendue::spectrum::Density;
+    /// let green = Density::led(530.0, 30.0)?;
+    /// assert!((green.total() - 1.0).abs() < 1e-12);
+    /// assert!((green.continuum_at(545.0) / green.continuum_at(530.0) - 0.5).abs() < 1e-12);
+    /// # Ok::<(), etendue::spectrum::SpectrumError>(())
+    /// ```
+    pub fn led(peak_nm: f64, fwhm_nm: f64) -> Result<Self, SpectrumError> {
+        let centre_nm = positive("the peak of the LED in nm", peak_nm)?;
+        let fwhm_nm = positive("the full width at half maximum of the LED in nm", fwhm_nm)?;
+        let width_nm = positive("the width of the LED in nm", LED_WIDTH_OVER_FWHM * fwhm_nm)?;
+        // exp(−t²/w²) and exp(−5 t²/w²) as normal distributions: their areas are as 1 to 2/√5.
+        let area = 1.0 + 2.0 / 5.0_f64.sqrt();
+        let bell = |share: f64, sharpness: f64| {
+            let sigma_nm = width_nm / (2.0 * sharpness).sqrt();
+            Continuum::Scaled(share, Box::new(Continuum::Gaussian { centre_nm, sigma_nm }))
+        };
+        let sum = Continuum::Sum(vec![bell(1.0 / area, 1.0), bell(1.0 - 1.0 / area, 5.0)]);
+        Ok(Self::assemble(sum, Vec::new()))
+    }
+
+    /// The CIE's summation as a density: lines of power `φ(λᵢ) Δλ` at `from_nm`, `from_nm + step_nm`, … up to and with `to_nm`. Lines of
+    /// the density itself are kept as they are, wherever they lie.
+    ///
+    /// Tabulated colorimetry (CIE 015) is defined by such sums. With this density in place of the other, [`Density::integral`] is the sum
+    /// over the products at the same wavelengths; there is no second way to integrate.
+    ///
+    /// # Errors
+    /// If the band is not one, the step is not positive and finite, or there are more than ten million steps.
+    ///
+    /// ```
+    /// # use etendue::spectrum::{Density, Factor};
+    /// // Illuminant E summed in steps of 10 nm through a band of 400 nm to 420 nm: three lines of 100 · 10 nm.
+    /// let sum = Density::flat(360.0, 830.0, 100.0)?.summed(360.0, 830.0, 10.0)?;
+    /// assert_eq!(sum.integral(&[&Factor::band(400.0, 420.0, 1.0)?]), 3000.0);
+    /// # Ok::<(), etendue::spectrum::SpectrumError>(())
+    /// ```
+    pub fn summed(&self, from_nm: f64, to_nm: f64, step_nm: f64) -> Result<Self, SpectrumError> {
+        let wavelengths_nm = steps(from_nm, to_nm, step_nm)?;
+        let sampled = wavelengths_nm.into_iter().map(|nm| Line { wavelength_nm: nm, power: self.continuum.at(nm) * step_nm });
+        let lines: Vec<Line> = sampled.chain(self.lines.iter().copied()).collect();
+        Ok(Self { scale: self.scale, ..Self::assemble(Continuum::Sum(Vec::new()), lines) })
+    }
+
     /// Spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹. Errors if the temperature in K is not positive and finite.
     pub fn black_body(temperature_k: f64) -> Result<Self, SpectrumError> {
         let temperature_k = positive("the temperature of the black body in K", temperature_k)?;
@@ -201,6 +275,11 @@ impl Density {
     /// The continuum at `nm`, per nm; lines are not in it.
     pub fn continuum_at(&self, nm: f64) -> f64 {
         self.scale * self.continuum.at(nm)
+    }
+
+    /// The density without its lines.
+    pub fn without_lines(&self) -> Self {
+        Self { scale: self.scale, ..Self::assemble(self.continuum.clone(), Vec::new()) }
     }
 
     /// The continuum without its scale, for the integrals.

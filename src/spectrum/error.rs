@@ -65,6 +65,12 @@ pub enum SpectrumError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// A table of the library that is needed is not there.
+    #[error("the library has no table `{name}`")]
+    NoTable {
+        /// Its name.
+        name: &'static str,
+    },
     /// A band that ends before it begins.
     #[error("the band runs from {from_nm} nm to {to_nm} nm; its end must lie above its beginning")]
     Band {

@@ -7,8 +7,7 @@
 //! | photon | `∫ φ λ/(hc) dλ` | s⁻¹; divided by N_A, mol s⁻¹ |
 //!
 //! The same functions turn W m⁻² into lx and W m⁻² sr⁻¹ into cd m⁻²: what is per area or per solid angle stays so.
-//! The SI fixes 683 lm W⁻¹ at 540 THz, which is 555.016 nm in standard air; V(λ) is tabulated in air with its peak at 555 nm,
-//! so `K_m = 683/V(555.016 nm) = 683.002` (ISO 23539).
+//! What `K_m` is and why is written at the head of [`constants`](crate::quantity::constants).
 
 use super::{Density, Factor};
 use crate::quantity::constants::{AVOGADRO_PER_MOL, K_M_LM_W, PLANCK_J_S, SPEED_OF_LIGHT_M_S};

@@ -3,11 +3,12 @@
 //! 1. The density is written as a sum of terms `scale · kernel · factors`; every constant goes into the scale.
 //! 2. A term lives on the intersection of the supports, cut at the union of all breakpoints.
 //! 3. Where the integrand is a polynomial of degree d between breakpoints, `⌊d/2⌋ + 1` Gauss–Legendre nodes are exact.
+//!    Products of tables alone are summed by their closed form in one walk along the breakpoints.
 //! 4. Where a black body or a Gaussian is in it, segments are halved until two estimates agree.
 
 use super::scaled_number::ScaledNumber;
 use super::term::{Segment, Term, terms};
-use super::{Density, Factor, gauss_legendre};
+use super::{Density, Factor, gauss_legendre, table_product};
 
 /// See the head of this file.
 pub(super) fn integral(density: &Density, factors: &[&Factor]) -> f64 {
@@ -39,22 +40,41 @@ pub(super) fn points_and_weights(density: &Density, factors: &[&Factor], cuts_nm
 }
 
 /// Neumaier's sum: what rounding drops is kept beside.
-fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
-    let (mut sum, mut lost) = (0.0_f64, 0.0_f64);
-    for value in values {
-        let next = sum + value;
-        if next.is_infinite() {
-            return next;
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct CompensatedSum {
+    sum: f64,
+    lost: f64,
+}
+
+impl CompensatedSum {
+    /// Adds a number.
+    pub(super) fn add(&mut self, value: f64) {
+        let next = self.sum + value;
+        if next.is_finite() {
+            self.lost += if self.sum.abs() >= value.abs() { (self.sum - next) + value } else { (value - next) + self.sum };
         }
-        lost += if sum.abs() >= value.abs() { (sum - next) + value } else { (value - next) + sum };
-        sum = next;
+        self.sum = next;
     }
-    sum + lost
+
+    /// The sum.
+    pub(super) fn value(self) -> f64 {
+        // Beside a sum that has left the range of f64 nothing counts.
+        if self.sum.is_finite() { self.sum + self.lost } else { self.sum }
+    }
+}
+
+fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sum = CompensatedSum::default();
+    values.for_each(|value| sum.add(value));
+    sum.value()
 }
 
 impl Term<'_> {
     /// The integral without the scale.
     fn integral(&self) -> f64 {
+        if let Some(product) = self.tables().and_then(|tables| table_product::integral(&tables)) {
+            return product;
+        }
         let segments = self.segments(&[]);
         match self.degree() {
             Some(degree) if degree / 2 < gauss_legendre::MAX_NODES => {
@@ -81,8 +101,9 @@ impl Term<'_> {
         const AGREEMENT: f64 = 1e-11;
         // What is this small beside the whole cannot be seen in it.
         const INVISIBLE: f64 = 1e-17;
-        let size: f64 = segments.iter().map(|segment| self.estimate(segment, NODES).1).sum();
-        let mut open: Vec<(Segment, f64, usize)> = segments.iter().map(|segment| (*segment, self.estimate(segment, NODES).0, 0)).collect();
+        let first: Vec<(f64, f64)> = segments.iter().map(|segment| self.estimate(segment, NODES)).collect();
+        let size: f64 = first.iter().map(|estimate| estimate.1).sum();
+        let mut open: Vec<(Segment, f64, usize)> = segments.into_iter().zip(first).map(|(segment, whole)| (segment, whole.0, 0)).collect();
         let mut closed = Vec::with_capacity(open.len());
         while let Some((segment, whole, halvings)) = open.pop() {
             let middle = 0.5 * (segment.from + segment.to);

@@ -40,6 +40,12 @@ impl Field<'_> {
         self.text.parse::<f64>().is_err() && !starts_as_number && !self.text.is_empty()
     }
 
+    /// Whether it looks like a number with a comma in it.
+    pub(super) fn has_comma_number(&self) -> bool {
+        let starts_as_number = self.text.starts_with(|first: char| first.is_ascii_digit() || "+-.,".contains(first));
+        starts_as_number && self.text.contains(',')
+    }
+
     /// The finite number that the field holds, or a message and what to do about it.
     pub(super) fn number(&self) -> Result<f64, (String, String)> {
         match self.text.parse::<f64>() {

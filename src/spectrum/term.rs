@@ -169,6 +169,13 @@ impl Term<'_> {
         self.factors.iter().try_fold(kernel?, |sum, factor| Some(sum + factor.degree()?))
     }
 
+    /// The tables of which the term is the product, if it is one of tables alone. The kernel's table is zero outside.
+    pub(super) fn tables(&self) -> Option<Vec<&Table>> {
+        let Kernel::Table(kernel) = self.kernel else { return None };
+        let factors = self.factors.iter().map(|factor| if let Factor::Table(table) = factor { Some(table) } else { None });
+        std::iter::once(Some(kernel)).chain(factors).collect()
+    }
+
     /// The support, cut at all breakpoints and at `cuts_nm`.
     pub(super) fn segments(&self, cuts_nm: &[f64]) -> Vec<Segment> {
         let mut segments = Vec::new();

@@ -11,6 +11,7 @@
 //! | reciprocity of two surfaces | 1e-9 | 4 u |
 //! | inverse square, cosine | 1e-9 | – |
 //! | order of the items of a scene | 1e-9 | 4 u |
+//! | spectra: a line is a line, nodes do not matter, σT⁴ | 1e-9 | – |
 //! | methods: formulas and samples agree | – | 4 u |
 
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
@@ -25,5 +26,6 @@ mod motion;
 mod order;
 mod reciprocity;
 mod scale;
+mod spectra;
 mod superposition;
 mod white_furnace;

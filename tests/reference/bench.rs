@@ -1,5 +1,7 @@
 //! Cases as they are in the files, and scenes with one instrument.
 
+use std::collections::BTreeMap;
+
 use etendue::estimate::{Counters, Stop, Watch};
 use etendue::measurement::{Measurement, Reading, measure};
 use etendue::plan::{Plan, PlanOptions};
@@ -57,6 +59,11 @@ impl Case {
         matches!(self.0["unit"].as_str().unwrap(), "lx" | "lm" | "cd/m^2")
     }
 
+    /// An input as it is in the file.
+    pub(crate) fn value(&self, input: &str) -> &Value {
+        &self.0["inputs"][input]
+    }
+
     pub(crate) fn text(&self, input: &str) -> &str {
         self.0["inputs"][input].as_str().unwrap_or_else(|| panic!("{} has no text `{input}`", self.id()))
     }
@@ -67,6 +74,12 @@ impl Case {
 
     pub(crate) fn vector(&self, input: &str) -> [f64; 3] {
         vector(&self.0["inputs"][input])
+    }
+
+    /// A list of records of numbers.
+    pub(crate) fn records(&self, input: &str) -> Vec<BTreeMap<String, f64>> {
+        let list = self.0["inputs"][input].as_array().unwrap();
+        list.iter().map(|record| record.as_object().unwrap().iter().map(|(key, value)| (key.clone(), decimal(value))).collect()).collect()
     }
 
     pub(crate) fn vectors(&self, input: &str) -> Vec<[f64; 3]> {

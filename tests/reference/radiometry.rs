@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use etendue::quantity::photon::{monochromatic_photon_flux, monochromatic_photon_irradiance, photon_energy_j};
-use etendue::quantity::table::{Irradiance, RadiantFlux};
+use etendue::quantity::table::{Irradiance, LuminousIntensity, RadiantFlux};
 
 use crate::bench::{Case, Family, System, at, exact, read_up, scene, tilted};
 
@@ -48,13 +48,14 @@ fn point_above(case: &Case, height_m: f64) -> String {
     format!("shape: Point, at: {}, {}", at([0.0, 0.0, height_m]), case.system().intensity(case.number("I")))
 }
 
-/// Exponent 0: half of what a point emits. Exponent 1: a Lambertian disc. Both into a disc that takes in the half space.
+/// Exponent 0: half of what a point emits. Exponent 1: a Lambertian disc. Both into a disc that takes in the half space. For other powers
+/// there is no source in scenes: they go through the relation of the lecture.
 fn emitter_flux(c: &Case) -> f64 {
-    let (i0, lamp) = (c.number("I0_cd"), System::Luminous);
+    let (i0, exponent, lamp) = (c.number("I0_cd"), c.number("exponent"), System::Luminous);
     let source = match c.text("exponent") {
         "0" => format!("shape: Point, at: (0, 0, 1), {}", lamp.intensity(i0)),
         "1" => format!("{}, {}", disc([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], 0.3), lamp.intensity(i0)),
-        other => panic!("an intensity with the exponent {other} needs a goniometric source"),
+        _ => return LuminousIntensity::new(i0).cosine_power_flux(exponent).value(),
     };
     read_up(&[source], &lamp.disc_meter(EVERYTHING_M, "Cosine"))
 }

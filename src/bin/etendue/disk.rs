@@ -16,40 +16,64 @@ pub(crate) struct Disk {
 
 impl Files for Disk {
     fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileProblem> {
-        let problem = |e: std::io::Error| match e.kind() {
-            ErrorKind::NotFound => FileProblem::Missing,
-            _ => FileProblem::Unreadable(e.to_string()),
-        };
         let path = fs::canonicalize(path).map_err(problem)?;
         let root = fs::canonicalize(&self.root).map_err(problem)?;
         if !path.starts_with(&root) {
             return Err(FileProblem::Unreadable(format!("the link leads out of the root `{}`", root.display())));
         }
-        // Looked at before it is opened: to open a pipe would wait for a writer.
-        let about = fs::metadata(&path).map_err(problem)?;
-        if !about.is_file() {
-            return Err(FileProblem::Unreadable("it is not a file".to_owned()));
-        }
-        if about.len() > most_bytes {
-            return Err(FileProblem::TooLong { bytes: about.len() });
-        }
-        let file = File::open(path).map_err(problem)?;
-        let mut bytes = Vec::new();
-        // A file that grows meanwhile is cut at the limit plus one byte, and so noticed.
-        file.take(most_bytes + 1).read_to_end(&mut bytes).map_err(problem)?;
-        match bytes.len() as u64 {
-            n if n > most_bytes => Err(FileProblem::TooLong { bytes: n }),
-            _ => Ok(bytes),
-        }
+        regular_file(&path, most_bytes)
     }
 
     fn neighbours(&self, path: &str) -> Vec<String> {
-        let folder = Path::new(path).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-        let mut names: Vec<String> = entries.flatten().filter_map(|e| e.file_name().into_string().ok()).collect();
-        names.sort();
-        names
+        names_beside(path)
     }
+}
+
+/// Files that whoever runs the program names on the command line: anywhere.
+pub(crate) struct Anywhere;
+
+impl Files for Anywhere {
+    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileProblem> {
+        regular_file(Path::new(path), most_bytes)
+    }
+
+    fn neighbours(&self, path: &str) -> Vec<String> {
+        names_beside(path)
+    }
+}
+
+fn problem(e: std::io::Error) -> FileProblem {
+    match e.kind() {
+        ErrorKind::NotFound => FileProblem::Missing,
+        _ => FileProblem::Unreadable(e.to_string()),
+    }
+}
+
+fn regular_file(path: &Path, most_bytes: u64) -> Result<Vec<u8>, FileProblem> {
+    // Looked at before it is opened: to open a pipe would wait for a writer.
+    let about = fs::metadata(path).map_err(problem)?;
+    if !about.is_file() {
+        return Err(FileProblem::Unreadable("it is not a file".to_owned()));
+    }
+    if about.len() > most_bytes {
+        return Err(FileProblem::TooLong { bytes: about.len() });
+    }
+    let file = File::open(path).map_err(problem)?;
+    let mut bytes = Vec::new();
+    // A file that grows meanwhile is cut at the limit plus one byte, and so noticed.
+    file.take(most_bytes + 1).read_to_end(&mut bytes).map_err(problem)?;
+    match bytes.len() as u64 {
+        n if n > most_bytes => Err(FileProblem::TooLong { bytes: n }),
+        _ => Ok(bytes),
+    }
+}
+
+fn names_beside(path: &str) -> Vec<String> {
+    let folder = Path::new(path).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut names: Vec<String> = entries.flatten().filter_map(|e| e.file_name().into_string().ok()).collect();
+    names.sort();
+    names
 }
 
 /// Reads a scene, or says everything that is wrong with it.
@@ -62,6 +86,22 @@ pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
     // The empty path is the current folder to the library, and nothing to the disk.
     let disk = Disk { root: Path::new(".").join(folder) };
     read_scene(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))
+}
+
+/// The files of the nearest folder of this name, here or above, as (path, text) in the order of their names; `None` if there is no folder.
+///
+/// What is not a text file of ordinary size is left out.
+pub(crate) fn shelf(name: &str) -> Option<Vec<(String, String)>> {
+    const MOST_BYTES: u64 = 1 << 20;
+    let here = std::env::current_dir().ok()?;
+    let holder = here.ancestors().find(|folder| folder.join(name).is_dir())?;
+    let disk = Disk { root: holder.join(name) };
+    let text_of = |file: String| {
+        let path = holder.join(name).join(&file);
+        let text = String::from_utf8(disk.read(path.to_str()?, MOST_BYTES).ok()?).ok()?;
+        Some((format!("{name}/{file}"), text))
+    };
+    Some(disk.neighbours(holder.join(name).join("any").to_str()?).into_iter().filter_map(text_of).collect())
 }
 
 /// The root of a scene as [`read_scene`] has it: the parent of the innermost folder `scenes` on its way, else its own folder.

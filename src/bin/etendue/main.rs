@@ -5,18 +5,23 @@
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
 //! | `checkpoint.rs`, `output.rs` | the files that runs write |
-//! | `check.rs`, `explain.rs`, `measure.rs`, `merge.rs`, `repeat.rs` | one file a subcommand |
+//! | every other file | a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
 mod check;
 mod checkpoint;
 mod disk;
+mod equation;
 mod explain;
+mod list;
 mod measure;
 mod merge;
 mod output;
+#[cfg(feature = "plot")]
+mod plot;
 mod repeat;
+mod spectrum;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -37,12 +42,21 @@ enum Command {
     Check(check::Arguments),
     /// What will be computed, what is left out, and why.
     Explain(explain::Arguments),
+    /// Equations of the lecture: list them, or compute one from its inputs.
+    Equation(equation::Arguments),
+    /// The curves of the library and the sensor files at hand, by name.
+    List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
     /// Put the shares of a run together and read them as one.
     Merge(merge::Arguments),
     /// Measure again what a file of readings says, and tell whether the bits agree.
     Repeat(repeat::Arguments),
+    /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
+    #[cfg(feature = "plot")]
+    Plot(plot::Arguments),
+    /// Every quantity of one spectrum.
+    Spectrum(spectrum::Arguments),
 }
 
 /// Why a command ended early; what it has to say is on stderr already or is said here.
@@ -57,9 +71,14 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Equation(arguments) => equation::run(&arguments),
+        Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Repeat(arguments) => repeat::run(&arguments),
+        #[cfg(feature = "plot")]
+        Command::Plot(arguments) => plot::run(&arguments),
+        Command::Spectrum(arguments) => spectrum::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -15,6 +15,7 @@ fn every_header_is_complete_and_every_sum_is_right() {
     let keys = [
         "name",
         "aliases",
+        "group",
         "kind",
         "quantity",
         "unit",
@@ -31,7 +32,7 @@ fn every_header_is_complete_and_every_sum_is_right() {
     ];
     let mut columns = 2;
     for file in FILES {
-        let table = parse(file, &TextRules::default()).unwrap();
+        let table = parse(file, &TextRules { negative_values: true, ..TextRules::default() }).unwrap();
         for key in keys {
             assert!(table.header_value(key).is_some_and(|value| !value.is_empty()), "{key} of {:?}", table.header[0]);
         }
@@ -73,7 +74,7 @@ fn a_miss_answers_with_the_nearest_names() {
     assert_eq!(nearest[0], "LED-B3");
     let LookupError::Unknown { nearest, .. } = library::factor("photopik").unwrap_err() else { panic!() };
     assert_eq!(nearest[0], "photopic");
-    assert!(matches!(library::factor("V'"), Err(LookupError::Unknown { .. })), "V prime is not V");
+    assert_ne!(library::factor("V'").unwrap(), library::factor("V").unwrap(), "V prime is not V");
     assert!(matches!(library::factor("D65"), Err(LookupError::OtherKind { .. })));
     assert!(matches!(library::density("V"), Err(LookupError::OtherKind { .. })));
     assert!(library::density("").is_err());

@@ -56,7 +56,7 @@ fn each_problem_says_where_and_what_to_do() {
     assert_eq!(only_problem("380,0.1\n390\n").2, "too few columns: 1 instead of 2");
     assert_eq!(only_problem("380,0.1\n390,-0.1\n").2, "the value -0.1 is negative");
     assert!(only_problem("-380,0.1\n390,0.1\n").2.contains("not above 0"));
-    assert!(only_problem("# wavelength_unit: um\n380,0.1\n390,0.1\n").3.contains("nm"));
+    assert!(only_problem("# wavelength_unit: inch\n380,0.1\n390,0.1\n").3.contains("nm"));
     assert!(only_problem("# unit: 1\n# unit: 2\n380,0.1\n390,0.1\n").2.contains("twice"));
     assert!(only_problem("").2.contains("no rows"));
     assert!(only_problem("380,0.1").2.contains("one row"));
@@ -66,18 +66,20 @@ fn each_problem_says_where_and_what_to_do() {
 #[test]
 fn decimal_commas_are_recognised() {
     for text in ["380,5;0,12\n381,5;0,13\n", "380,5\t0,12\n381,5\t0,13\n", "380,5 0,12\n381,5 0,13\n"] {
-        let list = problems(text);
-        assert_eq!(list.len(), 4, "{list:?}");
-        assert!(list[0].help.contains("decimal comma; write `380.5`"), "{list:?}");
+        let table = parse(text, &TextRules::default()).unwrap();
+        assert_eq!((table.wavelengths_nm, table.columns), (vec![380.5, 381.5], vec![vec![0.12, 0.13]]), "{text}");
+        assert!(table.remarks.iter().any(|remark| remark.contains("decimal commas")), "{text}");
     }
+    assert!(only_problem("380;1,234\n381;2,345\n").3.contains("`1.234` or `1234`"));
     let list = problems("nm,value\n380,5,0,12\n381,5,0,13\n");
     assert!(list[0].help.contains("decimal commas"), "{list:?}");
 }
 
 #[test]
 fn wavelengths_in_other_units_are_recognised() {
-    assert!(only_problem("0.38,1\n0.78,1\n").3.contains("micrometres; multiply them by 1000"));
-    assert!(only_problem("380e-9,1\n780e-9,1\n").3.contains("metres; multiply them by 1e9"));
+    assert!(only_problem("0.38,1\n0.78,1\n").3.contains("micrometres: write `# wavelength_unit: um` above them, or multiply them by 1000"));
+    assert!(only_problem("380e-9,1\n780e-9,1\n").3.contains("metres: write `# wavelength_unit: m` above them, or multiply them by 1e9"));
+    assert_eq!(parse("# wavelength_unit: um\n0.38,1\n0.5461,1\n", &TextRules::default()).unwrap().wavelengths_nm, [380.0, 546.1]);
 }
 
 #[test]

@@ -1,0 +1,186 @@
+//! `etendue spectrum` as a user runs it: numbers, units, files as they come, messages, exit codes.
+
+#![cfg(feature = "cli")]
+#![allow(clippy::unwrap_used)]
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn spectrum(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_etendue")).arg("spectrum").args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// The JSON of a spectrum that is read without a complaint.
+fn json(arguments: &[&str]) -> Value {
+    let output = spectrum(&[arguments, &["--format", "json"]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn row<'a>(sheet: &'a Value, id: &str) -> &'a Value {
+    sheet["quantities"].as_array().unwrap().iter().find(|row| row["id"] == id).unwrap_or_else(|| panic!("{id} in {sheet}"))
+}
+
+fn number(sheet: &Value, id: &str) -> f64 {
+    row(sheet, id)["value"].as_f64().unwrap_or_else(|| panic!("{}", row(sheet, id)))
+}
+
+/// A file in a folder of its own.
+fn file(name: &str, bytes: &[u8]) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("spectrum-command");
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join(name);
+    std::fs::write(&path, bytes).unwrap();
+    path
+}
+
+#[test]
+fn a_line_of_one_watt_gives_the_lumens_of_v_lambda() {
+    let sheet = json(&["Line(546.07)", "--quantity", "flux"]);
+    // V between its rows at 546 nm and 547 nm.
+    let v = 0.983_610_8 + 0.07 * (0.986_408_2 - 0.983_610_8);
+    let flux = number(&sheet, "luminous");
+    assert!((flux / (683.002 * v) - 1.0).abs() < 2e-4, "{flux}");
+    assert_eq!(row(&sheet, "luminous")["unit"], "lm");
+}
+
+#[test]
+fn the_page_has_a_unit_or_a_name_for_every_number() {
+    let output = spectrum(&["D65"]);
+    let page = text(&output.stdout);
+    assert!(output.status.success() && page.contains("scaled to an illuminance of 1000 lx"));
+    for words in ["illuminance", " lx", "W/m²", "µmol/(m² s)", "mW/lm", "EDI / lx", "T_cp", " K\n", "0.31273"] {
+        assert!(page.contains(words), "{words}\n{page}");
+    }
+}
+
+#[test]
+fn a_spectrum_can_be_scaled() {
+    let [a, b] = ["500", "1000"].map(|lx| json(&["LED-B3", "--illuminance", lx]));
+    assert!((number(&a, "luminous") - 500.0).abs() < 1e-9);
+    assert!((2.0 * number(&a, "mel_equivalent_daylight") / number(&b, "mel_equivalent_daylight") - 1.0).abs() < 1e-12);
+    assert_eq!(number(&a, "cct"), number(&b, "cct"));
+    let c = json(&["LED-B3", "--irradiance", "2"]);
+    assert!((number(&c, "radiant") - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_file_with_units_is_absolute_and_its_uncertainties_go_all_the_way() {
+    let lamp = "# wavelength_unit: nm\n# per: nm\n# unit: W/(m² nm)\nwavelength_nm,irradiance,standard_uncertainty\n\
+                400,0.01,0.0001\n500,0.02,0.0002\n600,0.03,0.0003\n700,0.01,0.0001\n";
+    let path = file("lamp.csv", lamp.as_bytes());
+    let [each, together] = [&[path.to_str().unwrap()][..], &[path.to_str().unwrap(), "--correlated"]].map(json);
+    assert!((number(&each, "radiant") - 6.0).abs() < 1e-12);
+    assert!(each["scale"].as_str().unwrap().contains("absolute"));
+    // ∫ hⱼ dλ is 50, 100, 100, 50 nm.
+    let parts = [50.0 * 1e-4, 100.0 * 2e-4, 100.0 * 3e-4, 50.0 * 1e-4];
+    let u = |sheet: &Value, id: &str| row(sheet, id)["standard_uncertainty"].as_f64().unwrap();
+    let quadratic = parts.iter().map(|p: &f64| p * p).sum::<f64>().sqrt();
+    assert!((u(&each, "radiant") / quadratic - 1.0).abs() < 1e-9);
+    assert!((u(&together, "radiant") / parts.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+    // One per cent in all rows together leaves colours alone.
+    assert!(u(&together, "chromaticity_x_1931") < 1e-9 && u(&each, "chromaticity_x_1931") > 1e-5);
+    assert!(each["remarks"].as_array().unwrap().iter().any(|remark| remark.as_str().unwrap().contains("400 nm to 700 nm")));
+}
+
+#[test]
+fn decimal_commas_are_accepted_and_said() {
+    let path = file("commas.csv", "\u{feff}# per: nm\r\n# wavelength_unit: nm\r\n400;1,5\r\n500;2,5\r\n600;0,5\r\n".as_bytes());
+    let output = spectrum(&[path.to_str().unwrap(), "--format", "json"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let sheet: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let said = |remark: &str| remark.to_lowercase().contains("decimal comma");
+    assert!(sheet["remarks"].as_array().unwrap().iter().any(|remark| said(remark.as_str().unwrap())), "{sheet}");
+    assert!(text(&output.stderr).lines().any(|line| line.starts_with("remark: ") && said(line)));
+}
+
+#[test]
+fn an_unknown_unit_is_not_guessed() {
+    let path = file("milliwatt.csv", b"# wavelength_unit: nm\n# per: nm\n# unit: mW/(m2 nm)\n400,1\n500,2\n600,1\n");
+    let output = spectrum(&[path.to_str().unwrap()]);
+    assert!(output.status.success());
+    assert!(text(&output.stdout).contains("relative"));
+    assert!(text(&output.stderr).contains("--quantity"));
+}
+
+#[test]
+fn a_spectrum_is_written_again_and_reads_back() {
+    for (format, extension) in [("csv", "csv"), ("spdx", "spdx")] {
+        let path = file(&format!("again.{extension}"), b"");
+        let output = spectrum(&["LED-B3", "--resample", "380:780:1", "--as", format, "--out", path.to_str().unwrap()]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert!(text(&output.stderr).contains("remark: "));
+        let [again, before] = [json(&[path.to_str().unwrap()]), json(&["LED-B3"])];
+        assert!((number(&again, "cct") / number(&before, "cct") - 1.0).abs() < 1e-3, "{format}");
+    }
+    let output = spectrum(&["BlackBody(3000)", "--as", "csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("--resample"));
+}
+
+#[test]
+fn resampling_says_what_it_costs() {
+    let output = spectrum(&["FL11", "--resample", "380:780:10", "--format", "json"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let sheet: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(!sheet["remarks"].as_array().unwrap().is_empty());
+    assert_eq!(spectrum(&["FL11", "--resample", "780:380:5"]).status.code(), Some(2));
+}
+
+#[test]
+fn csv_reads_back() {
+    let output = spectrum(&["A", "--format", "csv"]);
+    let page = text(&output.stdout);
+    let header: Vec<&str> = page.lines().next().unwrap().split(',').collect();
+    assert!(header.contains(&"id") && header.contains(&"unit") && header.contains(&"value"));
+    let line = page.lines().find(|line| line.contains(",cct,")).unwrap();
+    assert!(line.contains(",K,"), "{line}");
+}
+
+#[test]
+fn a_file_can_take_the_sheet_and_a_bad_place_is_told() {
+    let path = file("taken.json", b"");
+    let target = path.with_file_name("sheet.json");
+    let _ = std::fs::remove_file(&target);
+    let output = spectrum(&["D50", "--format", "json", "--out", target.to_str().unwrap()]);
+    assert!(output.status.success() && output.stdout.is_empty());
+    let sheet: Value = serde_json::from_slice(&std::fs::read(&target).unwrap()).unwrap();
+    assert_eq!(sheet["schema"], 1);
+    let output = spectrum(&["D50", "--out", "no/such/folder/sheet.txt"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("no/such/folder/sheet.txt"));
+}
+
+#[test]
+fn mistakes_end_with_code_2_and_say_what_to_type() {
+    let empty = file("empty.csv", b"");
+    let broken = file("broken.csv", b"# per: nm\n# wavelength_unit: nm\n400,1\n390,2\n500,x\n600,-1\n");
+    let (empty, broken) = (empty.to_str().unwrap(), broken.to_str().unwrap());
+    for (arguments, words) in [
+        (&["D66"][..], &["D65"][..]),
+        (&["V"], &["spectral distribution"]),
+        (&["BlackBody(-3)"], &["above 0 K"]),
+        (&["no-such-file.csv"], &["no-such-file.csv"]),
+        (&[empty], &["empty.csv"]),
+        (&[broken], &["broken.csv:4", "broken.csv:5", "broken.csv:6"]),
+        (&["A", "--illuminance", "-5"], &["above 0"]),
+        (&["A", "--illuminance", "5", "--irradiance", "3"], &["--irradiance"]),
+        (&["A", "--white", "D66"], &["D65"]),
+        (&["Line(10000)", "--illuminance", "5"], &["irradiance"]),
+        (&["A", "--quantity", "lux"], &["irradiance"]),
+    ] {
+        let output = spectrum(arguments);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+        for word in words {
+            assert!(message.contains(word), "{arguments:?}: {word} in\n{message}");
+        }
+    }
+}
