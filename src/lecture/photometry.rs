@@ -117,7 +117,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
     Equation {
         name: "illuminance-to-photon-irradiance",
         group: Group::Photometry,
-        formula: "E_p = E_v ∫ S λ/(hc) dλ / (K_m ∫ S V dλ)",
+        formula: "E_p = E_v ∫ S nλ/(hc) dλ / (K_m ∫ S V dλ)",
         about: "photons per second and area of an illuminance of a spectrum, over all wavelengths that the spectrum has",
         inputs: &[ILLUMINANCE, SPECTRUM],
         outcome: cell::<PhotonIrradiance>(),

@@ -8,14 +8,14 @@
 //! |---|---|---|
 //! | radiant | 1 | 1 |
 //! | luminous | K_m = 683.002 lm/W | V(λ) |
-//! | photon | 1/(hc) | λ |
+//! | photon | 1/(hc) | n(λ) λ |
 //! | scotopic | K'_m | V'(λ) |
 //! | mesopic, adaptation m | K_m,mes(m) | V_mes,m(λ) |
 //! | α-opic | 1 | s_α(λ) |
 //!
 //! S(λ) is the spectrum of the light; its scale cancels. The row of the table stays: irradiance becomes illuminance, radiance luminance.
-//! Where 683 and 683.002 come from is written in [`constants`](crate::quantity::constants); photons are counted at the wavelength of the
-//! table, as [`photometry`](crate::spectrum::photometry) does: in air that is 2.8e-4 less than at the wavelength in vacuum.
+//! Where 683 and 683.002 come from is written in [`constants`](crate::quantity::constants); the wavelengths of a
+//! spectrum are in air, and photons have the energy of those in vacuum ([`photometry`](crate::spectrum::photometry)).
 //!
 //! ```
 //! use etendue::observer::conversion::convert;
@@ -111,7 +111,7 @@ impl System {
         Ok(match self {
             Self::Radiant => (1.0, Factor::ONE),
             Self::Luminous => efficiency(Efficiency::Photopic1924),
-            Self::Photon => (1.0, photometry::photons_per_joule()),
+            Self::Photon => (1.0, photometry::photons_per_joule(photometry::WavelengthsIn::StandardAir)),
             Self::Scotopic => efficiency(Efficiency::Scotopic1951),
             Self::Mesopic { adaptation } => {
                 let of_observer = ConversionError::Observer;
@@ -256,7 +256,8 @@ mod tests {
         let lux: Illuminance = convert(one, &green).unwrap();
         assert_eq!(lux.value(), 683.002);
         let photons: PhotonIrradiance = convert(one, &green).unwrap();
-        assert!(close(photons.value(), crate::quantity::photon::photons_per_joule(555.0), 1e-15));
+        let in_vacuum_nm = crate::quantity::air::wavelength_in_vacuum_nm(555.0);
+        assert!(close(photons.value(), crate::quantity::photon::photons_per_joule(in_vacuum_nm), 1e-8));
         // CIE 1951: V'(555 nm) = 0.402.
         let scotopic: ScotopicIlluminance = convert(one, &green).unwrap();
         assert!(close(scotopic.value(), 1700.05 * 0.402, 1e-12), "{scotopic}");

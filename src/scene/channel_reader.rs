@@ -9,7 +9,7 @@
 //! | … `(efficacy_lm_w: 683)` | | as given |
 //! | `EquivalentDaylightIlluminance("melanopic")` | lx | `1/K_α,v(D65)`, α-opic EDI of CIE S 026 |
 //! | … `(receptor: "melanopic", adjusted_with: "D65")` | | true for that spectrum |
-//! | `PhotonIrradiance` | µmol/(m² s) | `10⁶ / (N_A h c)`, and s(λ) is multiplied by n(λ) λ |
+//! | `PhotonIrradiance` | µmol/(m² s) | `10⁶ / N_A`, and s(λ) is multiplied by n(λ) λ/(hc) |
 //! | `Photocurrent` | A | 1; s(λ) is in A/W |
 //! | `Weighted(name: "erythemal irradiance", symbol: "E_er", unit: "W/m²", per_watt: 1)` | as given | as given |
 //! | `Weighted(…, of: Radiance)` | as given | as given, over `∫R cosθ dω` of the acceptance |
@@ -27,11 +27,11 @@ use super::nearest::suggestion;
 use super::reading::Reading;
 use super::spectrum_reader::{read_factor, v_lambda};
 use crate::observer::{AlphaOpic, Efficiency};
-use crate::quantity::air::wavelength_in_vacuum_nm;
-use crate::quantity::constants::{AVOGADRO_PER_MOL, K_M_LM_W, PLANCK_J_S, SPEED_OF_LIGHT_M_S};
+use crate::quantity::constants::{AVOGADRO_PER_MOL, K_M_LM_W};
 use crate::quantity::measurand::Measurand;
 use crate::sensor::{Acceptance, Aperture, Channel};
-use crate::spectrum::{Factor, Outside, Table};
+use crate::spectrum::photometry::{WavelengthsIn, photons_per_joule};
+use crate::spectrum::{Factor, Outside};
 
 const READS: [&str; 12] = [
     "Irradiance",
@@ -74,7 +74,7 @@ pub(super) fn read_channel(
     let found = read_indication(&reads, given.as_ref().map(Option::as_ref), aperture, acceptance, reading)?;
     let (name, mut responsivity) = (name?, given.unwrap_or(found.own_curve)?);
     if reads.name() == "PhotonIrradiance" {
-        responsivity = Factor::Product(vec![responsivity, Factor::Proportional(1e-9), refractive_index()?]);
+        responsivity = Factor::Product(vec![responsivity, photons_per_joule(WavelengthsIn::StandardAir)]);
     }
     Some(Channel { name: name.into(), responsivity, reads: found.reads, scale: found.scale })
 }
@@ -154,10 +154,7 @@ fn read_indication(
                 "RadiantFlux" => unweighted(Measurand::RadiantFlux, 1.0),
                 "Radiance" => unweighted(Measurand::Radiance, 1.0),
                 "Photocurrent" => unweighted(Measurand::Photocurrent, 1.0),
-                _ => unweighted(
-                    weighted("photon irradiance", "E_p", "µmol/(m² s)"),
-                    1e6 / (AVOGADRO_PER_MOL * PLANCK_J_S * SPEED_OF_LIGHT_M_S),
-                ),
+                _ => unweighted(weighted("photon irradiance", "E_p", "µmol/(m² s)"), 1e6 / AVOGADRO_PER_MOL),
             }
         }
     }
@@ -238,11 +235,4 @@ fn read_equivalent_daylight(reads: &Value, given: Option<Option<&Factor>>, readi
     let scale = fields.map_or(Some(system.per_watt), |fields| read_optional_adjustment(&fields, &system, responsivity, reading))?;
     let words = format!("{} equivalent daylight (D65) illuminance", alpha.name());
     Some(Indication { reads: weighted(&words, &format!("E_v,{}^D65", alpha.index()), "lx"), scale, own_curve: Some(system.curve) })
-}
-
-/// Refractive index of air at a wavelength in air, every 5 nm from 200 nm to 2500 nm and held outside; between the nodes it is straight
-/// to 1e-8.
-fn refractive_index() -> Option<Factor> {
-    let rows: Vec<(f64, f64)> = (40..=500).map(|i| 5.0 * f64::from(i)).map(|nm| (nm, wavelength_in_vacuum_nm(nm) / nm)).collect();
-    Table::from_rows(&rows, Outside::Hold).ok().map(Factor::Table)
 }

@@ -4,17 +4,39 @@
 //! |---|---|---|
 //! | radiant | `∫ φ dλ` | W |
 //! | luminous | `K_m ∫ φ V dλ`, `K_m` = 683.002 lm W⁻¹ | lm |
-//! | photon | `∫ φ λ/(hc) dλ` | s⁻¹; divided by N_A, mol s⁻¹ |
+//! | photon | `∫ φ n λ/(hc) dλ` | s⁻¹; divided by N_A, mol s⁻¹ |
 //!
 //! The same functions turn W m⁻² into lx and W m⁻² sr⁻¹ into cd m⁻²: what is per area or per solid angle stays so.
 //! What `K_m` is and why is written at the head of [`constants`](crate::quantity::constants).
 
-use super::{Density, Factor};
+use super::{Density, Factor, Outside, Table};
+use crate::quantity::air::wavelength_in_vacuum_nm;
 use crate::quantity::constants::{AVOGADRO_PER_MOL, K_M_LM_W, PLANCK_J_S, SPEED_OF_LIGHT_M_S};
 
-/// Photons per energy, `λ/(hc)`, J⁻¹: what turns a spectral flux in W into photons per second.
-pub fn photons_per_joule() -> Factor {
-    Factor::Proportional(1e-9 / (PLANCK_J_S * SPEED_OF_LIGHT_M_S))
+/// In which medium the wavelengths of a spectrum are counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WavelengthsIn {
+    /// Standard air, as all wavelengths of this library are unless stated otherwise.
+    StandardAir,
+    /// Vacuum.
+    Vacuum,
+}
+
+/// Photons per energy, `n λ/(hc)`, J⁻¹: what turns a spectral flux in W into photons per second. The energy of a photon goes by its
+/// wavelength in vacuum, which is n = 1.00028 times that in air.
+pub fn photons_per_joule(wavelengths: WavelengthsIn) -> Factor {
+    let vacuum = Factor::Proportional(1e-9 / (PLANCK_J_S * SPEED_OF_LIGHT_M_S));
+    match wavelengths {
+        WavelengthsIn::StandardAir => Factor::Product(vec![vacuum, refractive_index_of_air()]),
+        WavelengthsIn::Vacuum => vacuum,
+    }
+}
+
+/// Refractive index of standard air over the wavelength in air, every 5 nm from 200 nm to 2500 nm and held outside; straight to 1e-8
+/// between the nodes. NaN if the table could not be made, which a test excludes.
+fn refractive_index_of_air() -> Factor {
+    let rows: Vec<(f64, f64)> = (40..=500).map(|i| 5.0 * f64::from(i)).map(|nm| (nm, wavelength_in_vacuum_nm(nm) / nm)).collect();
+    Table::from_rows(&rows, Outside::Hold).map_or(Factor::Constant(f64::NAN), Factor::Table)
 }
 
 /// Radiant total, in the density's unit times nm (W for W nm⁻¹).
@@ -28,13 +50,13 @@ pub fn luminous(density: &Density, v: &Factor) -> f64 {
 }
 
 /// Photons per second for W nm⁻¹, photons s⁻¹ m⁻² for W m⁻² nm⁻¹.
-pub fn photons(density: &Density) -> f64 {
-    density.integral(&[&photons_per_joule()])
+pub fn photons(density: &Density, wavelengths: WavelengthsIn) -> f64 {
+    density.integral(&[&photons_per_joule(wavelengths)])
 }
 
 /// Photons in mol s⁻¹ for W nm⁻¹, mol s⁻¹ m⁻² for W m⁻² nm⁻¹.
-pub fn photons_mol(density: &Density) -> f64 {
-    density.integral(&[&photons_per_joule(), &Factor::Constant(1.0 / AVOGADRO_PER_MOL)])
+pub fn photons_mol(density: &Density, wavelengths: WavelengthsIn) -> f64 {
+    density.integral(&[&photons_per_joule(wavelengths), &Factor::Constant(1.0 / AVOGADRO_PER_MOL)])
 }
 
 /// Luminous efficacy of radiation, lm W⁻¹; `None` for a density that is zero.
@@ -53,8 +75,8 @@ mod tests {
         assert_eq!(luminous(&laser, &v), 683.002);
         // Photon energy hc/λ = 1239.841984 eV nm / 555 nm, 1 eV = 1.602176634e-19 J.
         let expected = 1.0 / (1_239.841_984_332 / 555.0 * 1.602_176_634e-19);
-        assert!((photons(&laser) / expected - 1.0).abs() < 1e-11);
-        assert!((photons_mol(&laser) * 6.022_140_76e23 / expected - 1.0).abs() < 1e-11);
+        assert!((photons(&laser, WavelengthsIn::Vacuum) / expected - 1.0).abs() < 1e-11);
+        assert!((photons_mol(&laser, WavelengthsIn::Vacuum) * 6.022_140_76e23 / expected - 1.0).abs() < 1e-11);
     }
 
     #[test]
@@ -63,8 +85,17 @@ mod tests {
         for kelvin in [1.0_f64, 300.0, 2856.0, 1e7] {
             let wavenumber = 1e9 * kelvin / super::super::black_body::SECOND_RADIATION_CONSTANT_NM_K;
             let expected = 2.0 * SPEED_OF_LIGHT_M_S * wavenumber.powi(3) * 2.0 * 1.202_056_903_159_594_2;
-            let found = photons(&Density::black_body(kelvin).unwrap());
+            let found = photons(&Density::black_body(kelvin).unwrap(), WavelengthsIn::Vacuum);
             assert!((found / expected - 1.0).abs() < 1e-11, "{kelvin} K: {found:e} against {expected:e}");
+        }
+    }
+
+    #[test]
+    fn a_photon_has_the_energy_of_its_wavelength_in_vacuum() {
+        for nm in [210.0, 405.3, 546.07, 1064.0, 2400.0] {
+            let found = photons(&Density::line(nm, 1.0).unwrap(), WavelengthsIn::StandardAir);
+            let expected = crate::quantity::photon::photons_per_joule(wavelength_in_vacuum_nm(nm));
+            assert!((found / expected - 1.0).abs() < 5e-8, "{nm} nm: {found:e} against {expected:e}");
         }
     }
 

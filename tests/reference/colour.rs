@@ -3,6 +3,7 @@
 use etendue::observer::Matching;
 use etendue::observer::colour::{Chromaticity, Tristimulus};
 use etendue::quantity::constants::K_M_LM_W;
+use etendue::spectrum::photometry::WavelengthsIn;
 use etendue::spectrum::table_text::{TextRules, parse};
 use etendue::spectrum::{Density, Factor, Outside, Table, library, photometry};
 
@@ -70,6 +71,6 @@ fn photons(c: &Case) -> f64 {
     let density = bells(c);
     let lux = photometry::luminous(&by_convention(&density, "sum1(360,830)"), &library::v_lambda());
     let band = Factor::band(400.0, 700.0, 1.0).unwrap();
-    let photons = photometry::photons_mol(&by_convention(&density, "sum1(360,830)").filtered(&band));
+    let photons = photometry::photons_mol(&by_convention(&density, "sum1(360,830)").filtered(&band), WavelengthsIn::Vacuum);
     1e6 * photons * (c.number("E_lx") / lux)
 }

@@ -45,7 +45,8 @@ pub(super) fn definitions(white: Chromaticity, white_name: &str) -> Vec<Definiti
             Definition { row: cell, compute: Box::new(compute) }
         }));
     }
-    let coordinates: [(&str, &str, fn(Chromaticity) -> f64); 4] = [
+    type Coordinate = fn(Chromaticity) -> f64;
+    let coordinates: [(&str, &str, Coordinate); 4] = [
         ("chromaticity_x", "x", |p| p.x),
         ("chromaticity_y", "y", |p| p.y),
         ("chromaticity_u_prime", "u′", |p| p.uv_prime().0),

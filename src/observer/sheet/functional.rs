@@ -73,7 +73,7 @@ pub(super) enum Spread {
 impl Functionals {
     pub(super) fn new() -> Result<Self, ObserverError> {
         let band = |from_nm: f64, to_nm: f64| Factor::Band { from_nm, to_nm, value: 1.0 };
-        let mol = photometry::photons_per_joule().scaled(1.0 / AVOGADRO_PER_MOL);
+        let mol = photometry::photons_per_joule(photometry::WavelengthsIn::StandardAir).scaled(1.0 / AVOGADRO_PER_MOL);
         let (low_nm, high_nm) = VISIBLE_NM;
         // A line exactly on an edge counts once, as visible.
         let mut list = vec![
