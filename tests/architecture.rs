@@ -50,6 +50,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/scene/diagnostic.rs",
             "src/plan/check.rs",
             "src/estimate/mod.rs",
+            "src/estimate/journal/recording.rs",
             "src/report/plot/error.rs",
         ],
     ),

@@ -4,18 +4,23 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
+//! | `checkpoint.rs`, `output.rs` | the files that runs write |
 //! | every other file | a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
 mod check;
+mod checkpoint;
 mod disk;
 mod equation;
 mod explain;
 mod list;
 mod measure;
+mod merge;
+mod output;
 #[cfg(feature = "plot")]
 mod plot;
+mod repeat;
 mod spectrum;
 
 use std::io::Write;
@@ -43,6 +48,10 @@ enum Command {
     List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
+    /// Put the shares of a run together and read them as one.
+    Merge(merge::Arguments),
+    /// Measure again what a file of readings says, and tell whether the bits agree.
+    Repeat(repeat::Arguments),
     /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
     #[cfg(feature = "plot")]
     Plot(plot::Arguments),
@@ -65,6 +74,8 @@ fn main() -> ExitCode {
         Command::Equation(arguments) => equation::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
+        Command::Repeat(arguments) => repeat::run(&arguments),
         #[cfg(feature = "plot")]
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),
