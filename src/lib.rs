@@ -65,6 +65,7 @@
 //! | 6 | [`measurement`] | estimates → readings with budget and provenance | printing |
 //! | 7 | [`characterization`] | quality indices of instruments | fitting, printing |
 //! | 7 | [`lecture`] | the equations of a lecture by name, each a call of the library | physics of its own |
+//! | 7 | [`study`] | a scene measured many times over: error against run time | printing, clocks of its own |
 //! | 8 | [`report`] | text, JSON, CSV, plots | computing anything else |
 //! | 9 | `bin/etendue` | arguments, files, screens | physics |
 //!
@@ -103,4 +104,5 @@ pub mod scene;
 pub mod sensor;
 pub mod source;
 pub mod spectrum;
+pub mod study;
 pub mod surface;

@@ -75,7 +75,7 @@ pub(crate) fn whole(lowest: u64, highest: u64) -> impl Fn(&str) -> Result<u64, S
     }
 }
 
-fn seconds(given: &str) -> Result<f64, String> {
+pub(crate) fn seconds(given: &str) -> Result<f64, String> {
     let given = given.trim();
     let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
     let found = units.iter().find_map(|(unit, scale)| Some((given.strip_suffix(unit)?, *scale)));

@@ -84,12 +84,16 @@ fn prepared(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, Fail
 }
 
 /// Writes beside the target first and then moves: there is never half a file.
-fn save(target: &Path, written: &str) -> Result<(), Failure> {
+pub(crate) fn save_at(target: &Path, written: &[u8]) -> Result<(), Failure> {
     let partial = PathBuf::from(with_appended(target, "partial"));
     std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target)).map_err(|e| {
         let _ = std::fs::remove_file(&partial);
-        unwritable(target, &e, "--out takes a folder that can be written")
-    })?;
+        unwritable(target, &e, "--out takes a place that can be written")
+    })
+}
+
+fn save(target: &Path, written: &str) -> Result<(), Failure> {
+    save_at(target, written.as_bytes())?;
     print(&format!("{}\n", target.display()))
 }
 
