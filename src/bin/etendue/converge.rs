@@ -26,8 +26,8 @@ const LONGEST: u64 = 1 << 30;
 pub(crate) struct Arguments {
     /// The scene file.
     scene: String,
-    /// What the readings are held to: values in the order of the readings, each as 6.2225 or 6.2225±0.0005, or a file that `etendue measure
-    /// --format json` or `csv` wrote [default: the closed form where there is one, else a long run].
+    /// What the readings are held to: values in the order of the readings, each as 6.2225 or 6.2225±0.0005, or a file that `etendue
+    /// measure --format json` or `csv` wrote [default: the closed form where there is one, else a long run].
     #[arg(long, value_name = "VALUE[,VALUE…]|FILE", allow_hyphen_values = true)]
     reference: Option<String>,
     /// Study the naive plan, too: nothing left out, every term by rays.

@@ -1,7 +1,7 @@
 //! Processor time of this process.
 //!
-//! The standard library has no such clock. Linux counts the nanoseconds that each thread ran in `/proc/self/task/*/schedstat`; elsewhere wall time ×
-//! threads stands in, which is never less.
+//! The standard library has no such clock. Linux counts the nanoseconds that each thread ran in `/proc/self/task/*/schedstat`;
+//! elsewhere wall time × threads stands in, which is never less.
 
 use std::time::Instant;
 

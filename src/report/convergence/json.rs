@@ -1,8 +1,8 @@
 //! Error against run time as JSON.
 //!
-//! Schema 1: `{"schema", "scene", "scene_file", "seed", "seeds", "budget_seconds", "threads", "cpu_clock", "reference": {…}, "plans": [{"name",
-//! "exact", "curves": [{"name", "readings", "rungs": […], slopes, "time_to": […]}]}], "remarks"}`. Errors and uncertainties are relative.
-//! Numbers that are not finite are `null`.
+//! Schema 1: `{"schema", "scene", "scene_file", "seed", "seeds", "budget_seconds", "threads", "cpu_clock", "reference": {…},
+//! "plans": [{"name", "exact", "curves": [{"name", "readings", "rungs": […], slopes, "time_to": […]}]}], "gains": […], "remarks"}`.
+//! Errors and uncertainties are relative. Numbers that are not finite are `null`.
 
 use serde::Serialize;
 
@@ -21,6 +21,7 @@ struct Document<'a> {
     cpu_clock: &'a str,
     reference: Held<'a>,
     plans: Vec<Planned<'a>>,
+    gains: Vec<Saved<'a>>,
     remarks: &'a [String],
 }
 
@@ -47,6 +48,14 @@ struct Planned<'a> {
     exact_readings: usize,
     exact: Option<Exact>,
     curves: Vec<Curve<'a>>,
+}
+
+#[derive(Serialize)]
+struct Saved<'a> {
+    other: &'a str,
+    error: f64,
+    factor: f64,
+    measured: bool,
 }
 
 #[derive(Serialize)]
@@ -189,6 +198,7 @@ pub fn to_json(report: &ConvergenceReport) -> String {
         cpu_clock: &report.cpu_clock,
         reference: held(&study.reference),
         plans: study.plans.iter().map(planned).collect(),
+        gains: study.gains.iter().map(|g| Saved { other: &g.other, error: g.error, factor: g.factor, measured: g.measured }).collect(),
         remarks: &study.remarks,
     };
     // Strings and numbers only: there is nothing that could not be written.

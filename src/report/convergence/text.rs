@@ -4,11 +4,9 @@ use std::fmt::Write;
 
 use super::ConvergenceReport;
 use crate::metrology::rounding::format_significant;
-use crate::study::converge::{
-    ErrorCurve, ExactRun, PlanConvergence, PowerLaw, REFERENCE_SHARE, Reference, ReferenceOrigin, TARGETS, TimeTo,
-};
+use crate::study::converge::{ErrorCurve, ExactRun, PlanConvergence, PowerLaw, Reference, ReferenceOrigin, TARGETS, TimeTo};
 
-/// Curves beyond this number are in the other formats only.
+/// Channels beyond this number are in the other formats only.
 const MOST_CURVES: usize = 12;
 
 /// The report as text.
@@ -25,7 +23,7 @@ fn write_all(report: &ConvergenceReport, out: &mut String) -> std::fmt::Result {
     writeln!(out, "{}\n", study.scene)?;
     let sampled = study.plans.iter().any(|p| !p.curves.is_empty());
     if sampled || matches!(study.reference.origin, ReferenceOrigin::Given(_)) {
-        write_reference(&study.reference, study.plans.iter().flat_map(|p| p.curves.first()).next(), out)?;
+        write_reference(&study.reference, study.plans.iter().find_map(|p| p.curves.first()), out)?;
     }
     let threads = if report.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", report.threads) };
     writeln!(out, "  times      means of a run on {threads}; {}", report.cpu_clock)?;
@@ -40,7 +38,7 @@ fn write_all(report: &ConvergenceReport, out: &mut String) -> std::fmt::Result {
         writeln!(out)?;
         write_plan(plan, out)?;
     }
-    write_gain(&study.plans, out)?;
+    write_gains(report, out)?;
     for remark in &study.remarks {
         writeln!(out, "\n  note: {remark}")?;
     }
@@ -60,7 +58,7 @@ fn write_reference(reference: &Reference, all: Option<&ErrorCurve>, out: &mut St
         write!(out, ", u = {}", share(curve.reference_uncertainty))?;
         let limits = curve.rungs.iter().any(|r| r.reference_limits);
         let part = if limits { "at some rungs more" } else { "less" };
-        write!(out, ": {part} than {} of the error", if REFERENCE_SHARE < 0.34 { "a third" } else { "half" })?;
+        write!(out, ": {part} than a third of the error")?;
     }
     writeln!(out)
 }
@@ -81,11 +79,28 @@ fn write_plan(plan: &PlanConvergence, out: &mut String) -> std::fmt::Result {
     if plan.exact_readings > 0 {
         writeln!(out, "{}: {} readings are exact, by formulas, and in no curve", plan.name, plan.exact_readings)?;
     }
-    for curve in plan.curves.iter().take(MOST_CURVES) {
-        write_curve(&plan.name, curve, out)?;
+    let Some((all, channels)) = plan.curves.split_first() else { return Ok(()) };
+    write_curve(&plan.name, all, out)?;
+    if channels.is_empty() {
+        return Ok(());
     }
-    if plan.curves.len() > MOST_CURVES {
-        writeln!(out, "{}: {} more curves, see --format csv or json", plan.name, plan.curves.len() - MOST_CURVES)?;
+    let width = channels.iter().take(MOST_CURVES).map(|c| c.name.chars().count()).max().unwrap_or(0).max(12);
+    writeln!(out, "\n  {:<width$} {:>8} {:>14} {:>13}   CPU time to 1 %, 0.1 %", "of these", "readings", "slope by time", "claimed/true")?;
+    for curve in channels.iter().take(MOST_CURVES) {
+        let ratio = curve.ratio.map_or("-".to_owned(), |r| format!("{r:.2}"));
+        let [percent, permille, _] = &curve.times;
+        writeln!(
+            out,
+            "  {:<width$} {:>8} {:>14} {ratio:>13}   {}, {}",
+            curve.name,
+            curve.readings,
+            slope(curve.error_by_time.as_ref()),
+            time_to(percent),
+            time_to(permille)
+        )?;
+    }
+    if channels.len() > MOST_CURVES {
+        writeln!(out, "  … and {} more; all of them rung by rung: --format csv or json", channels.len() - MOST_CURVES)?;
     }
     Ok(())
 }
@@ -131,8 +146,6 @@ fn write_curve(plan: &str, curve: &ErrorCurve, out: &mut String) -> std::fmt::Re
             format_significant(rung.rays, 3),
         )?;
     }
-    let slope =
-        |law: Option<&PowerLaw>| law.map_or("not known".to_owned(), |l| format!("{} ± {:.2}", signed(l.exponent), l.standard_uncertainty));
     writeln!(
         out,
         "  slopes: true error {} against CPU time, {} against samples; claimed {}{}",
@@ -152,41 +165,21 @@ fn write_curve(plan: &str, curve: &ErrorCurve, out: &mut String) -> std::fmt::Re
 }
 
 /// What the first plan saves against the others.
-fn write_gain(plans: &[PlanConvergence], out: &mut String) -> std::fmt::Result {
-    let Some((first, others)) = plans.split_first() else { return Ok(()) };
-    for other in others {
-        let Some(theirs) = other.curves.first() else { continue };
-        for (k, target) in TARGETS.iter().enumerate() {
-            let Some(slow) = theirs.times[k].seconds() else { continue };
-            let (fast, rough) = match (&first.exact, first.curves.first()) {
-                (Some(exact), _) => (Some(exact.cpu_seconds), false),
-                (None, curve) => (
-                    curve.and_then(|c| c.times[k].seconds()),
-                    curve.is_some_and(|c| matches!(c.times[k], TimeTo::Extrapolated(_) | TimeTo::AtMost(_))),
-                ),
-            };
-            let rough = rough || matches!(theirs.times[k], TimeTo::Extrapolated(_) | TimeTo::AtMost(_));
-            let Some(fast) = fast.filter(|f| *f > 0.0) else { continue };
-            if k == 0 || writeln_needed(out) {
-                writeln!(out)?;
-            }
-            writeln!(
-                out,
-                "  {} / {}: CPU time to {} {} times as long{}",
-                other.name,
-                first.name,
-                share(*target),
-                format_significant(slow / fast, 2),
-                if rough { " (roughly: not all of it was measured)" } else { "" }
-            )?;
-        }
+fn write_gains(report: &ConvergenceReport, out: &mut String) -> std::fmt::Result {
+    let Some(first) = report.study.plans.first().filter(|_| !report.study.gains.is_empty()) else { return Ok(()) };
+    writeln!(out)?;
+    for gain in &report.study.gains {
+        let at_most = if gain.measured { "" } else { " (one of them in less than the lowest rung takes)" };
+        writeln!(
+            out,
+            "  {} over {}: {} times the CPU time to {}{at_most}",
+            gain.other,
+            first.name,
+            format_significant(gain.factor, 2),
+            share(gain.error)
+        )?;
     }
     Ok(())
-}
-
-/// Whether the lines on what is gained have not begun.
-fn writeln_needed(out: &str) -> bool {
-    !out.lines().next_back().is_some_and(|line| line.contains("times as long"))
 }
 
 fn time_to(time_to: &TimeTo) -> String {
@@ -207,9 +200,13 @@ fn time(seconds: f64) -> String {
     format!("{} {unit}", format_significant(seconds * scale, 3))
 }
 
+fn slope(law: Option<&PowerLaw>) -> String {
+    law.map_or("not known".to_owned(), |l| format!("{} ± {:.2}", signed(l.exponent), l.standard_uncertainty))
+}
+
 /// A share in percent.
 fn share(x: f64) -> String {
-    format!("{} %", format_significant(100.0 * x, if x == 0.01 || x == 1e-3 || x == 1e-4 { 1 } else { 3 }))
+    format!("{} %", format_significant(100.0 * x, if TARGETS.contains(&x) { 1 } else { 3 }))
 }
 
 fn signed(x: f64) -> String {

@@ -1,9 +1,11 @@
 //! Errors of a set of readings against samples and time.
 
+use std::collections::BTreeSet;
+
 use super::ladder::{Climbed, Runs};
 use super::power_law::{PowerLaw, TimeTo, fit, time_to, upper_part};
 use super::reference::{Place, Reference};
-use super::{REFERENCE_SHARE, TARGETS};
+use super::{REFERENCE_SHARE, RUNG_FACTOR, TARGETS};
 
 /// A rung of the ladder.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +55,7 @@ pub struct ErrorCurve {
     pub error_by_samples: Option<PowerLaw>,
     /// Claimed uncertainty against processor time.
     pub claimed_by_time: Option<PowerLaw>,
-    /// Claimed over true, geometric mean over the rungs of `error_by_time`.
+    /// Claimed over true, geometric mean over the rungs of the slopes of the error.
     pub ratio: Option<f64>,
     /// Processor time to each of [`TARGETS`].
     pub times: [TimeTo; 3],
@@ -78,34 +80,47 @@ pub(super) fn curves(places: &[Place], ladder: &Climbed, reference: &Reference) 
     if sets.len() > 1 {
         sets.insert(0, ("all readings".to_owned(), all));
     }
-    sets.into_iter().map(|(name, set)| curve(name, &set, ladder, reference)).collect()
+    sets.into_iter().map(|(name, set)| curve(name, &set, places, ladder, reference)).collect()
 }
 
-fn curve(name: String, set: &[usize], ladder: &Climbed, reference: &Reference) -> ErrorCurve {
+fn curve(name: String, set: &[usize], places: &[Place], ladder: &Climbed, reference: &Reference) -> ErrorCurve {
     let relative = |i: usize| reference.values[i].standard_uncertainty.unwrap_or(0.0) / reference.values[i].value;
     let reference_uncertainty = rms(set.iter().map(|&i| relative(i)));
     let rungs: Vec<Rung> = ladder.rungs.iter().map(|runs| rung(runs, set, reference, reference_uncertainty)).collect();
-    // The RMS of n independent normal errors scatters by 1/√(2n).
-    let scatter = (0.5 / (ladder.seeds as f64 * set.len() as f64)).sqrt();
+    // The RMS of n independent normal errors scatters by 1/√(2n); channels of one pose share their samples.
+    let poses: BTreeSet<(&str, usize)> = set.iter().map(|&i| (places[i].instrument.as_str(), places[i].index)).collect();
+    let scatter = (0.5 / (ladder.seeds as f64 * poses.len() as f64)).sqrt();
     let told: Vec<&Rung> = rungs.iter().filter(|r| !r.reference_limits && r.error > 0.0).collect();
-    let told = upper_part(&told);
+    let known: Vec<(f64, f64, f64)> = told.iter().map(|r| (r.samples as f64, r.cpu_seconds, r.error)).collect();
     let claiming: Vec<&Rung> = rungs.iter().filter(|r| r.claimed > 0.0).collect();
-    let claiming = upper_part(&claiming);
+    let upper = |rungs: Vec<&'_ Rung>| -> Vec<Rung> {
+        let seconds: Vec<f64> = rungs.iter().map(|r| r.cpu_seconds).collect();
+        rungs[upper_part(&seconds, RUNG_FACTOR as f64)..].iter().map(|r| (*r).clone()).collect()
+    };
+    let (told, claiming) = (upper(told), upper(claiming));
     let by =
-        |rungs: &[&Rung], x: fn(&Rung) -> f64, y: fn(&Rung) -> f64| fit(&rungs.iter().map(|r| (x(r), y(r))).collect::<Vec<_>>(), scatter);
-    let error_by_time = by(told, |r| r.cpu_seconds, |r| r.error);
-    let known: Vec<(f64, f64)> = rungs.iter().filter(|r| !r.reference_limits && r.error > 0.0).map(|r| (r.cpu_seconds, r.error)).collect();
+        |rungs: &[Rung], x: fn(&Rung) -> f64, y: fn(&Rung) -> f64| fit(&rungs.iter().map(|r| (x(r), y(r))).collect::<Vec<_>>(), scatter);
+    let error_by_samples = by(&told, |r| r.samples as f64, |r| r.error);
     let logarithms: Vec<f64> = told.iter().map(|r| r.ratio().ln()).filter(|l| l.is_finite()).collect();
     ErrorCurve {
         name,
         readings: set.len(),
         reference_uncertainty,
-        error_by_samples: by(told, |r| r.samples as f64, |r| r.error),
-        claimed_by_time: by(claiming, |r| r.cpu_seconds, |r| r.claimed),
+        error_by_time: by(&told, |r| r.cpu_seconds, |r| r.error),
+        claimed_by_time: by(&claiming, |r| r.cpu_seconds, |r| r.claimed),
         ratio: (!logarithms.is_empty()).then(|| (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()),
-        times: TARGETS.map(|target| time_to(target, &known, error_by_time.as_ref())),
-        error_by_time,
+        times: TARGETS.map(|target| time_to(target, &known, error_by_samples.as_ref())),
+        error_by_samples,
         rungs,
+    }
+}
+
+impl ErrorCurve {
+    /// The rungs whose error is known, as (samples, processor seconds, error).
+    #[must_use]
+    pub fn known(&self) -> Vec<(f64, f64, f64)> {
+        let told = self.rungs.iter().filter(|r| !r.reference_limits && r.error > 0.0);
+        told.map(|r| (r.samples as f64, r.cpu_seconds, r.error)).collect()
     }
 }
 

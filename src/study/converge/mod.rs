@@ -4,7 +4,7 @@
 //! rung k       N_k = 16 · 16 · 4^k samples, each with seeds of its own
 //! true error   √ mean over seeds and readings of ((y − y_ref) / y_ref)²
 //! claimed      √ mean over seeds and readings of (u_c / y_ref)²
-//! slope        d ln error / d ln t, by least squares over the upper two thirds of the ladder
+//! slope        d ln error / d ln t, by least squares over the upper part of the ladder
 //! ```
 //!
 //! | file | what |
@@ -12,6 +12,7 @@
 //! | `ladder.rs` | measures, rung by rung, until its share of the time is over |
 //! | `reference.rs` | what the readings are held to |
 //! | `curve.rs` | errors of a set of readings against samples and time |
+//! | `gain.rs` | what one plan saves against another |
 //! | `power_law.rs` | slopes, and the time to an error |
 //!
 //! | who | share of the budget |
@@ -25,11 +26,13 @@
 //! speed of the machine unless `most_samples` ends the ladder.
 
 mod curve;
+mod gain;
 mod ladder;
 mod power_law;
 mod reference;
 
 pub use curve::{ErrorCurve, Rung};
+pub use gain::Gain;
 pub use ladder::ExactRun;
 pub use power_law::{PowerLaw, TimeTo, fit, time_to};
 pub use reference::{Place, Reference, ReferenceOrigin, ReferenceValue, places};
@@ -96,6 +99,8 @@ pub struct Convergence {
     pub reference: Reference,
     /// A plan each.
     pub plans: Vec<PlanConvergence>,
+    /// What the first of them saves against the others.
+    pub gains: Vec<Gain>,
     /// What a reader should know.
     pub remarks: Vec<String>,
 }
@@ -212,5 +217,5 @@ pub fn converge(
         let exact_readings = ladder.sampled.iter().filter(|sampled| !**sampled).count();
         found.push(PlanConvergence { name: ladder.name, exact: ladder.exact, curves, exact_readings });
     }
-    Ok(Convergence { scene: scene.title.clone(), options: *options, reference, plans: found, remarks })
+    Ok(Convergence { scene: scene.title.clone(), options: *options, reference, gains: gain::gains(&found), plans: found, remarks })
 }
