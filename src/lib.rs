@@ -86,7 +86,8 @@
 //! # Conventions
 //!
 //! Metres, watts, nanometres in air; right-handed, z up. Angles in degrees in files, in radians in memory; units are in the names. 683
-//! lm/W at 540 THz gives K_m = 683.002 lm/W with V(λ) in air ([`quantity::constants`]). `R(ω)` does not contain the cosine.
+//! lm/W at 540 THz gives K_m = 683.002 lm/W with V(λ) in air ([`quantity::constants`]); photons have the energy of their wavelength in
+//! vacuum ([`spectrum::photometry`]). `R(ω)` does not contain the cosine.
 
 pub mod characterization;
 pub mod estimate;

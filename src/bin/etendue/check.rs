@@ -1,6 +1,6 @@
 //! `etendue check SCENE`: every problem of the file, or "ok".
 
-use crate::{Failure, complain, disk, print};
+use crate::{Failure, disk, print};
 
 /// Every problem of a scene file, or "ok".
 #[derive(clap::Args)]
@@ -14,7 +14,6 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = disk::scene(&arguments.scene, arguments.root.as_deref())?;
-    scene.remarks.iter().for_each(|remark| complain(&format!("note: {remark}")));
     let count = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
     print(&format!(
         "ok: {}, {}, {}\n",

@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use etendue::scene::{FileProblem, Files, Scene, read_scene};
 
-use crate::Failure;
+use crate::{Failure, complain};
 
 /// The disk, as the library sees it.
 pub(crate) struct Disk {
@@ -76,7 +76,7 @@ fn names_beside(path: &str) -> Vec<String> {
     names
 }
 
-/// Reads a scene, or says everything that is wrong with it.
+/// Reads a scene, or says everything that is wrong with it. How its files were understood is said on stderr.
 pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
     let path = match root {
         None => through_scenes_folder(path),
@@ -85,7 +85,9 @@ pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
     let folder = root.map_or_else(|| root_of(&path), PathBuf::from);
     // The empty path is the current folder to the library, and nothing to the disk.
     let disk = Disk { root: Path::new(".").join(folder) };
-    read_scene(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))
+    let scene = read_scene(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))?;
+    scene.remarks.iter().for_each(|remark| complain(&format!("note: {remark}")));
+    Ok(scene)
 }
 
 /// The files of the nearest folder of this name, here or above, as (path, text) in the order of their names; `None` if there is no folder.

@@ -79,16 +79,24 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
             return Err(PlotError::Request { what });
         }
         let points: Vec<[f64; 2]> = points.into_iter().map(|[nm, value]| [nm, value / one]).collect();
-        if !points.is_empty() {
+        if peak > 0.0 {
             let ink = if items.len() == 1 { Ink::Text } else { Ink::Palette(index) };
             let under = if items.len() == 1 { Under::Spectral } else { Under::Nothing };
             // The title names the only one.
             let label = if items.len() == 1 { "" } else { name };
             chart_curves.push(Curve { width: if items.len() == 1 { 0.7 } else { 1.0 }, ..Curve::new(label, points, ink).filled(under) });
         }
-        let named = items.len() == 1 && lines.len() <= MOST_NAMED_LINES;
-        for line in lines {
-            let label = if named { format!("{} nm", rounded(line.wavelength_nm)) } else { String::new() };
+        let alone = items.len() == 1;
+        // The curve of a spectrum bears its name; of lines alone, the strongest does.
+        let mut bearer = (!alone && peak == 0.0).then_some(strongest);
+        for line in &lines {
+            let label = if alone && lines.len() <= MOST_NAMED_LINES {
+                format!("{} nm", rounded(line.wavelength_nm))
+            } else if bearer.take_if(|power| *power == line.power).is_some() {
+                name.clone()
+            } else {
+                String::new()
+            };
             let ink = match (items.len(), peak > 0.0) {
                 (1, false) => wavelength_ink(line.wavelength_nm),
                 // In front of the same colours only another is seen.

@@ -174,7 +174,9 @@ fn wanted(chart: &Chart, look: &Look, ruler: &Ruler, obstacles: &[Obstacle], cur
         let head = obstacles[own].lines.iter().flatten().copied().min_by(|a, b| a[1].total_cmp(&b[1]));
         if let (false, Some(head)) = (impulse.label.is_empty(), head) {
             let request = Request { size: size(&impulse.label), lines: vec![vec![head]], own, clear: 0.45 * em, may_cross: false };
-            wanted.push(Wanted { text: impulse.label.clone(), ink: Ink::Text, request, needed: false });
+            // The colour of one spectrum among several names it; the colour of a wavelength does not.
+            let ink = if matches!(impulse.ink, Ink::Palette(_)) { impulse.ink } else { Ink::Text };
+            wanted.push(Wanted { text: impulse.label.clone(), ink, request, needed: false });
         }
     }
     for (index, point) in chart.points.iter().enumerate() {
