@@ -103,6 +103,9 @@ impl Reference {
                 return wrong(format!("the reference of {} is not finite, or its uncertainty is negative", place.in_words()));
             }
         }
+        if self.values.iter().all(|v| v.value == 0.0) {
+            return wrong("every value of the reference is zero: there is no relative error".to_owned());
+        }
         Ok(())
     }
 }
