@@ -19,7 +19,7 @@ use etendue::report::convergence::{
 };
 use etendue::scene::{Scene, read_scene, scene_from_text};
 use etendue::study::StudyWatch;
-use etendue::study::converge::{ConvergeError, ConvergeOptions, Convergence, PowerLaw, Reference, converge, places};
+use etendue::study::converge::{ConvergeError, ConvergeOptions, Convergence, PowerLaw, Reference, TimeTo, converge, places};
 
 fn shelf(name: &str) -> Scene {
     read_scene(&format!("scenes/{name}.ron"), &Repository, None).unwrap_or_else(|problems| panic!("{problems}"))
@@ -82,6 +82,7 @@ fn in_a_penumbra_the_error_falls_faster_than_chance_and_is_claimed_as_it_is() {
     assert_eq!(found.plans[0].curves[0].rungs.iter().map(|r| r.samples).collect::<Vec<_>>(), [256, 1024, 4096, 16384, 65536]);
     // No clock, no times.
     assert_eq!(found.plans[0].curves[0].error_by_time, None);
+    assert_eq!(found.plans[0].curves[0].times, [TimeTo::Unknown; 3]);
 }
 
 #[test]

@@ -95,6 +95,10 @@ pub fn fit(points: &[(f64, f64)], scatter: f64) -> Option<PowerLaw> {
 #[must_use]
 pub fn time_to(target: f64, rungs: &[(f64, f64, f64)], law: Option<&PowerLaw>) -> TimeTo {
     let Some(&(_, first_seconds, _)) = rungs.first() else { return TimeTo::Unknown };
+    // A clock that stands, or one too coarse for the run.
+    if rungs.iter().any(|(_, seconds, _)| !(*seconds > 0.0)) {
+        return TimeTo::Unknown;
+    }
     let Some(above) = rungs.iter().rposition(|(.., error)| *error > target) else { return TimeTo::AtMost(first_seconds) };
     let (n0, t0, e0) = rungs[above];
     match (rungs.get(above + 1), law) {
@@ -168,6 +172,7 @@ mod tests {
         assert_eq!(time_to(0.1, &rungs, Some(&law)), TimeTo::Unknown);
         assert_eq!(time_to(0.6, &rungs, Some(&law)), TimeTo::AtMost(1.0));
         assert_eq!(time_to(0.1, &[], None), TimeTo::Unknown);
+        assert_eq!(time_to(0.1, &[(256.0, 0.0, 0.5), (1024.0, 0.0, 0.01)], None), TimeTo::Unknown);
         // Below the target once by luck is not yet below it.
         let lucky = [(256.0, 1.0, 0.5), (1024.0, 4.0, 0.05), (4096.0, 16.0, 0.2), (16384.0, 64.0, 0.05)];
         assert!(matches!(time_to(0.1, &lucky, None), TimeTo::Interpolated(s) if (16.0..64.0).contains(&s)));
