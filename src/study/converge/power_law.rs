@@ -96,7 +96,7 @@ pub fn fit(points: &[(f64, f64)], scatter: f64) -> Option<PowerLaw> {
 pub fn time_to(target: f64, rungs: &[(f64, f64, f64)], law: Option<&PowerLaw>) -> TimeTo {
     let Some(&(_, first_seconds, _)) = rungs.first() else { return TimeTo::Unknown };
     // A clock that stands, or one too coarse for the run.
-    if rungs.iter().any(|(_, seconds, _)| !(*seconds > 0.0)) {
+    if !rungs.iter().all(|(_, seconds, _)| *seconds > 0.0) {
         return TimeTo::Unknown;
     }
     let Some(above) = rungs.iter().rposition(|(.., error)| *error > target) else { return TimeTo::AtMost(first_seconds) };
