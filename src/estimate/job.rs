@@ -1,6 +1,7 @@
 //! What is sampled: a job in a pose adds up geometric sums for each replicate, and can be continued at any time.
 
 use super::direct::{self, SourceJob};
+pub(super) use super::journal::Piece;
 use super::paths::{BrightSpot, PathScene, trace};
 use super::receiver::Receiver;
 use super::sky;
@@ -49,15 +50,6 @@ impl Progress {
         *self =
             Progress { share_clear: self.share_clear, known: self.known, spots: std::mem::take(&mut self.spots), ..Progress::default() };
     }
-}
-
-/// What a piece of work brought.
-pub(super) struct Piece {
-    pub(super) sums: Vec<f64>,
-    pub(super) connections: u64,
-    pub(super) clear: u64,
-    pub(super) potential: Vec<f64>,
-    pub(super) counters: Counters,
 }
 
 impl Job<'_> {

@@ -16,17 +16,21 @@
 //! | `paths/` | reflected light |
 //! | `job.rs`, `lanes.rs` | what these three have in common |
 //! | `task.rs` | what is to be done for an instrument |
-//! | `campaign.rs` | how many samples for which job: the stopping rule |
+//! | `campaign.rs` | a run, batch by batch |
+//! | `batch.rs` | how many samples for which job: the stopping rule |
 //! | `run.rs` | threads |
+//! | `journal/` | work that is done once: resumed, shared and repeated runs |
 //!
 //! Values are weighted irradiances `∫ s(λ) E(λ) dλ`, means over the aperture; what an instrument makes of them is for
 //! `measurement` to say. Sums are geometric until they are asked for a channel, so radiances of any size are safe.
 
+mod batch;
 mod campaign;
 pub mod closed_form;
 mod deterministic;
 mod direct;
 mod job;
+pub mod journal;
 mod lanes;
 mod light;
 mod paths;
@@ -35,7 +39,7 @@ pub mod run;
 mod sky;
 mod task;
 
-pub use campaign::estimate;
+pub use campaign::{Tally, contribute, estimate, estimate_with};
 
 /// Independent randomisations of every sampled term. Few replicates make a lucky small spread likely; many cost strata.
 pub const REPLICATES: usize = 16;
@@ -144,6 +148,10 @@ pub struct Estimates {
     pub poses: Vec<Vec<PoseEstimate>>,
     /// What was really done.
     pub counters: Counters,
+    /// Rounds of samples that each batch of poses took: with them a run that a clock ended can be repeated.
+    pub rounds: Vec<u32>,
+    /// Pieces of work that the samples were taken in.
+    pub pieces: u64,
 }
 
 /// Why there is no estimate.
@@ -164,6 +172,20 @@ pub enum EstimateError {
          A closed space with reflectance 1 stores light without end; give its surfaces a reflectance below 1"
     )]
     Endless {
+        /// The instrument.
+        instrument: String,
+    },
+    /// A journal does not hold all that a run needs, and may not be added to.
+    #[error("{missing} of {pieces} pieces of work are missing")]
+    Incomplete {
+        /// Pieces that are not there; more may be missing.
+        missing: u64,
+        /// Pieces that were asked for.
+        pieces: u64,
+    },
+    /// A journal answered with something that is no piece of this run.
+    #[error("a recorded piece of work for the instrument `{instrument}` is not one of this run")]
+    Foreign {
         /// The instrument.
         instrument: String,
     },

@@ -13,8 +13,10 @@
 //! | double-precision arithmetic | B | within ± 1e-12 of the value |
 //! | what a rule left out | B | its bound |
 
+mod header;
 mod provenance;
 mod reading;
 
-pub use provenance::Provenance;
-pub use reading::{Measurement, Reading, measure};
+pub use header::CheckpointHeader;
+pub use provenance::{Difference, Provenance, in_words};
+pub use reading::{Measurement, Reading, measure, measure_with};

@@ -1,7 +1,8 @@
 //! Readings of all instruments of a scene.
 
 use super::Provenance;
-use crate::estimate::{ChannelEstimate, Counters, EstimateError, PoseEstimate, Stop, Watch, estimate};
+use crate::estimate::journal::{Journal, Unrecorded};
+use crate::estimate::{ChannelEstimate, Counters, EstimateError, PoseEstimate, Stop, Watch, estimate_with};
 use crate::math::DVec3;
 use crate::metrology::{Budget, BudgetRow, Expanded, Replicates};
 use crate::plan::{Bound, Plan};
@@ -55,12 +56,12 @@ impl Reading {
 pub struct Measurement {
     /// Title of the scene.
     pub scene: String,
-    /// Seed of the random numbers.
-    pub seed: u64,
     /// Instrument by instrument, pose by pose, channel by channel.
     pub readings: Vec<Reading>,
     /// What was really done.
     pub counters: Counters,
+    /// Pieces of work that the samples were taken in.
+    pub pieces: u64,
     /// Where it came from.
     pub provenance: Provenance,
     /// Seconds from start to end.
@@ -72,8 +73,23 @@ pub struct Measurement {
 /// # Errors
 /// When light is never absorbed, so that a reading is not finite, or a reading is beyond the range of numbers.
 pub fn measure(scene: &Scene, plan: &Plan, stop: &Stop, seed: u64, watch: &Watch<'_>) -> Result<Measurement, EstimateError> {
+    measure_with(scene, plan, stop, seed, watch, &Unrecorded)
+}
+
+/// The same with a journal: to resume a run, to put it together from its shares, or to repeat one that a clock ended.
+///
+/// # Errors
+/// As [`measure`], and when the journal is one of another run or lacks pieces that it does not want sampled.
+pub fn measure_with(
+    scene: &Scene,
+    plan: &Plan,
+    stop: &Stop,
+    seed: u64,
+    watch: &Watch<'_>,
+    journal: &dyn Journal,
+) -> Result<Measurement, EstimateError> {
     let start = (watch.now)();
-    let estimates = estimate(scene, plan, stop, seed, watch)?;
+    let estimates = estimate_with(scene, plan, stop, seed, watch, journal)?;
     let mut readings = Vec::new();
     for (i, (instrument, poses)) in scene.instruments.iter().zip(&estimates.poses).enumerate() {
         let left_out: Vec<LeftOut> = (0..instrument.sensor.channels.len()).map(|c| LeftOut::of(plan, i, c)).collect();
@@ -87,12 +103,16 @@ pub fn measure(scene: &Scene, plan: &Plan, stop: &Stop, seed: u64, watch: &Watch
             }
         }
     }
+    let mut provenance = Provenance::of(scene, plan, stop, seed);
+    if stop.budget_seconds.is_some() {
+        provenance.rounds = estimates.rounds;
+    }
     Ok(Measurement {
         scene: scene.title.clone(),
-        seed,
         readings,
         counters: estimates.counters,
-        provenance: Provenance::of(scene, plan),
+        pieces: estimates.pieces,
+        provenance,
         wall_seconds: (watch.now)() - start,
     })
 }

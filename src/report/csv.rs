@@ -65,7 +65,7 @@ pub fn to_csv(measurement: &Measurement) -> String {
             r.expanded.expanded_uncertainty.to_string(),
             r.samples.to_string(),
             r.target_met.to_string(),
-            measurement.seed.to_string(),
+            measurement.provenance.seed.to_string(),
             r.notes.join("; "),
         ]
     }));

@@ -291,7 +291,7 @@ fn write_counters(m: &Measurement, out: &mut String) -> std::fmt::Result {
     writeln!(
         out,
         "  {samples} samples, {rays} rays, {bvh_nodes} BVH nodes, {spectral_nodes} spectral nodes; seed {}; {} s",
-        m.seed,
+        m.provenance.seed,
         format_significant(m.wall_seconds, 2)
     )
 }

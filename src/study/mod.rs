@@ -1,7 +1,21 @@
-//! Studies of the program itself: whether its readings are right.
+//! Studies: what the program's readings are worth.
 //!
 //! | module | what it asks |
 //! |---|---|
+//! | [`converge`] | true error and claimed uncertainty against run time |
 //! | [`verify`] | does every reference case come out, on this machine |
+//!
+//! A study measures like anybody else and looks only at readings; the clocks are lent by the shell.
 
+pub mod converge;
 pub mod verify;
+
+/// What the shell lends to a study: clocks and an ear.
+pub struct StudyWatch<'a> {
+    /// Wall time, seconds since any fixed moment.
+    pub now: &'a (dyn Fn() -> f64 + Sync),
+    /// Processor time of all threads of this process, seconds since any fixed moment.
+    pub cpu: &'a (dyn Fn() -> f64 + Sync),
+    /// Told the share of the study that is done, 0 to 1, now and then.
+    pub progress: &'a (dyn Fn(f64) + Sync),
+}

@@ -4,18 +4,26 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
+//! | `checkpoint.rs`, `output.rs` | the files that runs write |
+//! | `processor_time.rs` | the clock that the standard library lacks |
 //! | every other file | a subcommand |
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
 mod check;
+mod checkpoint;
+mod converge;
 mod disk;
 mod equation;
 mod explain;
 mod list;
 mod measure;
+mod merge;
+mod output;
 #[cfg(feature = "plot")]
 mod plot;
+mod processor_time;
+mod repeat;
 mod spectrum;
 mod verify;
 
@@ -40,10 +48,16 @@ enum Command {
     Explain(explain::Arguments),
     /// Equations of the lecture: list them, or compute one from its inputs.
     Equation(equation::Arguments),
+    /// True error and claimed uncertainty against run time.
+    Converge(converge::Arguments),
     /// The curves of the library and the sensor files at hand, by name.
     List(list::Arguments),
     /// Read every instrument of a scene.
     Measure(measure::Arguments),
+    /// Put the shares of a run together and read them as one.
+    Merge(merge::Arguments),
+    /// Measure again what a file of readings says, and tell whether the bits agree.
+    Repeat(repeat::Arguments),
     /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
     #[cfg(feature = "plot")]
     Plot(plot::Arguments),
@@ -66,8 +80,11 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Equation(arguments) => equation::run(&arguments),
+        Command::Converge(arguments) => converge::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
+        Command::Repeat(arguments) => repeat::run(&arguments),
         #[cfg(feature = "plot")]
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),

@@ -1,18 +1,16 @@
 //! `etendue measure SCENE`: read every instrument.
 
-use std::ffi::OsString;
-use std::io::{Error, ErrorKind, IsTerminal};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
-use clap::ValueEnum;
+use etendue::estimate::journal::{Journal, Share, Unrecorded};
 use etendue::estimate::run::with_threads;
-use etendue::estimate::{Stop, Watch};
-use etendue::measurement::{Measurement, measure};
-use etendue::report::{csv, json, text};
-use indicatif::{ProgressBar, ProgressStyle};
+use etendue::estimate::{EstimateError, Stop, Watch, contribute};
+use etendue::measurement::{CheckpointHeader, Measurement, Provenance, measure_with};
+use etendue::plan::Plan;
+use etendue::scene::Scene;
 
-use crate::{Failure, disk, explain, print};
+use crate::{Failure, checkpoint, complain, disk, explain, output, print};
 
 /// Read every instrument of a scene.
 #[derive(clap::Args)]
@@ -34,45 +32,25 @@ pub(crate) struct Arguments {
     /// Threads; as many as there are cores by default. Readings do not depend on it.
     #[arg(long, value_name = "N", value_parser = whole(1, 1024), allow_hyphen_values = true)]
     threads: Option<u64>,
-    /// How to write the readings.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-    /// Write the readings into this folder as `<scene>.txt`, `.json` or `.csv` and not to stdout.
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    /// Write finished work to this file, and go on from there if it exists: a run that was killed and is started again with the same
+    /// command has the bits of one that was not. At most the work of --checkpoint-every is lost. The file stays when the run has ended; with it the
+    /// same command reads again without sampling. Not with --budget.
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// Hold finished work back for at most this long before it goes to the checkpoint.
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "1s", requires = "checkpoint")]
+    checkpoint_every: f64,
+    /// Do only this share of the work, such as 2/3, and write it to the file of --checkpoint, for `etendue merge` to put
+    /// together; needs --samples.
+    #[arg(long, value_name = "k/K", value_parser = part, conflicts_with_all = ["format", "out"])]
+    shard: Option<Share>,
+    #[command(flatten)]
+    output: output::Options,
     #[command(flatten)]
     plan: explain::Options,
     /// The folder that no file may lie outside of; by default the one that holds `scenes/` and `sensors/`, else the scene's own.
     #[arg(long, value_name = "DIR")]
     root: Option<String>,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    /// A table for a person.
-    Text,
-    /// Everything, for programs.
-    Json,
-    /// A row a reading.
-    Csv,
-}
-
-impl Format {
-    fn extension(self) -> &'static str {
-        match self {
-            Format::Text => "txt",
-            Format::Json => "json",
-            Format::Csv => "csv",
-        }
-    }
-
-    fn write(self, measurement: &Measurement) -> String {
-        match self {
-            Format::Text => text::to_text(measurement),
-            Format::Json => json::to_json(measurement),
-            Format::Csv => csv::to_csv(measurement),
-        }
-    }
 }
 
 fn share(given: &str) -> Result<f64, String> {
@@ -90,14 +68,14 @@ fn share(given: &str) -> Result<f64, String> {
     }
 }
 
-fn whole(lowest: u64, highest: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+pub(crate) fn whole(lowest: u64, highest: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
     move |given| match given.trim().parse() {
         Ok(n) if (lowest..=highest).contains(&n) => Ok(n),
         _ => Err(format!("a whole number, {lowest} to {highest}")),
     }
 }
 
-fn seconds(given: &str) -> Result<f64, String> {
+pub(crate) fn seconds(given: &str) -> Result<f64, String> {
     let given = given.trim();
     let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
     let found = units.iter().find_map(|(unit, scale)| Some((given.strip_suffix(unit)?, *scale)));
@@ -107,7 +85,50 @@ fn seconds(given: &str) -> Result<f64, String> {
     }
 }
 
+fn part(given: &str) -> Result<Share, String> {
+    let numbers = given.trim().split_once('/').and_then(|(number, of)| Some((number.trim().parse().ok()?, of.trim().parse().ok()?)));
+    let share = numbers.and_then(|(number, of)| Share::new(number, of));
+    share.ok_or_else(|| "a share k/K with 1 ≤ k ≤ K, such as 2/3: the shares 1/3, 2/3 and 3/3 are the whole".to_owned())
+}
+
+/// A scene, how it is planned, and what makes a run of it.
+pub(crate) struct Run<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) plan: &'a Plan,
+    pub(crate) provenance: Provenance,
+    pub(crate) threads: Option<u64>,
+}
+
+impl Run<'_> {
+    /// Reads every instrument, with a bar that shows how far it is.
+    pub(crate) fn measure(&self, journal: &dyn Journal) -> Result<Measurement, EstimateError> {
+        let Provenance { stop, seed, .. } = &self.provenance;
+        let mut measured = self.watched(|watch| measure_with(self.scene, self.plan, stop, *seed, watch, journal));
+        if let Ok(measurement) = &mut measured {
+            measurement.provenance.scene_file.clone_from(&self.provenance.scene_file);
+            measurement.provenance.root.clone_from(&self.provenance.root);
+        }
+        measured
+    }
+
+    fn watched<R: Send>(&self, work: impl FnOnce(&Watch<'_>) -> R + Send) -> R {
+        let bar = output::progress_bar();
+        let start = Instant::now();
+        let watch = Watch { now: &|| start.elapsed().as_secs_f64(), progress: &|share| bar.set_position((1000.0 * share) as u64) };
+        let threads = self.threads.and_then(|n| usize::try_from(n).ok());
+        let result = with_threads(threads, || work(&watch));
+        bar.finish_and_clear();
+        result
+    }
+}
+
+/// What a run failed of, in words.
+pub(crate) fn failed(e: &EstimateError) -> Failure {
+    Failure::Run(format!("error: {e}"))
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    arguments.agree()?;
     let scene = disk::scene(&arguments.scene, arguments.root.as_deref())?;
     let plan = arguments.plan.plan(&scene)?;
     let stop = Stop {
@@ -119,56 +140,96 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         budget_seconds: arguments.budget,
         samples: arguments.samples,
     };
-    let target = arguments.out.as_deref().map(|folder| prepared(folder, &arguments.scene, arguments.format.extension())).transpose()?;
-    let bar = progress_bar();
-    let start = Instant::now();
-    let watch = Watch { now: &|| start.elapsed().as_secs_f64(), progress: &|share| bar.set_position((1000.0 * share) as u64) };
-    let threads = arguments.threads.and_then(|n| usize::try_from(n).ok());
-    let measured = with_threads(threads, || measure(&scene, &plan, &stop, arguments.seed, &watch));
-    bar.finish_and_clear();
-    let measurement = measured.map_err(|e| Failure::Run(format!("error: {e}")))?;
-    let written = arguments.format.write(&measurement);
-    match &target {
-        None => print(&written),
-        Some(target) => save(target, &written),
+    let mut provenance = Provenance::of(&scene, &plan, &stop, arguments.seed);
+    provenance.scene_file.clone_from(&arguments.scene);
+    provenance.root.clone_from(&arguments.root);
+    let run = Run { scene: &scene, plan: &plan, provenance, threads: arguments.threads };
+    match (arguments.shard, arguments.samples) {
+        (Some(share), Some(samples)) => arguments.contribute(&run, share, samples),
+        _ => arguments.measure(&run),
     }
 }
 
-/// The file that the readings go to, its folder made: a place that cannot be used is told before the time of a measurement is spent.
-fn prepared(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, Failure> {
-    let target = folder.join(with_appended(Path::new(scene).file_stem().unwrap_or_default(), extension));
-    std::fs::create_dir_all(folder).map_err(|e| unwritable(folder, &e))?;
-    match target.is_dir() {
-        true => Err(unwritable(&target, &Error::from(ErrorKind::IsADirectory))),
-        false => Ok(target),
+impl Arguments {
+    /// Whether the options go together.
+    fn agree(&self) -> Result<(), Failure> {
+        let wrong = |what: &str, help: &str| Err(Failure::Input(format!("error: {what}\n  = help: {help}")));
+        if self.shard.is_some() && self.samples.is_none() {
+            return wrong(
+                "--shard needs --samples: with a target the first samples of the whole run decide how many more are taken, and a share \
+                 does not see them",
+                "give the number of samples, such as --samples 65536; a run without --shard says how many it took",
+            );
+        }
+        if self.shard.is_some() && self.checkpoint.is_none() {
+            return wrong("--shard needs --checkpoint: a share has no readings, its work goes to that file", "add --checkpoint FILE");
+        }
+        if self.checkpoint.is_some() && self.budget.is_some() {
+            return wrong(
+                "--checkpoint does not go with --budget: where the clock ends a run, one that was interrupted has other bits",
+                "give --target or --samples; the checkpoint survives any end",
+            );
+        }
+        Ok(())
+    }
+
+    fn measure(&self, run: &Run<'_>) -> Result<(), Failure> {
+        let output = self.output.prepare(&self.scene)?;
+        let Some(path) = &self.checkpoint else {
+            return output.write(&run.measure(&Unrecorded).map_err(|e| failed(&e))?);
+        };
+        let journal =
+            checkpoint::open(path, &CheckpointHeader { provenance: run.provenance.clone(), share: Share::WHOLE }, self.checkpoint_every)?;
+        let measurement = run.measure(&journal).map_err(|e| match e {
+            EstimateError::Incomplete { .. } | EstimateError::Foreign { .. } => another_build(path, &e),
+            e => failed(&e),
+        })?;
+        let recalled = journal.recalled();
+        let finished = journal.finish(measurement.pieces);
+        if recalled > 0 {
+            complain(&format!("{recalled} of {} pieces of work recalled, {} sampled", measurement.pieces, measurement.pieces - recalled));
+        }
+        output.write(&measurement)?;
+        finished.map(|_| ()).map_err(|e| unfinished(path, &e))
+    }
+
+    fn contribute(&self, run: &Run<'_>, share: Share, samples: u64) -> Result<(), Failure> {
+        let Some(path) = &self.checkpoint else { return Ok(()) };
+        let journal = checkpoint::open(path, &CheckpointHeader { provenance: run.provenance.clone(), share }, self.checkpoint_every)?;
+        let tally = run.watched(|watch| contribute(run.scene, run.plan, samples, run.provenance.seed, watch, &journal));
+        let tally = tally.map_err(|e| match e {
+            EstimateError::Foreign { .. } => another_build(path, &e),
+            e => failed(&e),
+        })?;
+        let recalled = journal.recalled();
+        let own = (0..tally.pieces).filter(|&index| share.holds(index)).count() as u64;
+        if tally.pieces - tally.missing < own {
+            return Err(another_build(path, &EstimateError::Incomplete { missing: own + tally.missing - tally.pieces, pieces: own }));
+        }
+        journal.finish(tally.pieces).map_err(|e| unfinished(path, &e))?;
+        if own == 0 {
+            complain(&format!("warning: the run has only {} pieces of work, none for this share", tally.pieces));
+        }
+        print(&format!(
+            "share {}/{}: {own} of {} pieces of work, {recalled} recalled and {} sampled, in `{}`\n",
+            share.number,
+            share.of,
+            tally.pieces,
+            own - recalled,
+            path.display()
+        ))
     }
 }
 
-fn save(target: &Path, written: &str) -> Result<(), Failure> {
-    disk::save(target, written.as_bytes()).map_err(|e| unwritable(target, &e))?;
-    print(&format!("{}\n", target.display()))
+fn another_build(path: &std::path::Path, e: &EstimateError) -> Failure {
+    Failure::Input(format!(
+        "error: the checkpoint `{}` is not one of this run although its header says so: {e}\n  = help: another build of the same version \
+         wrote it; name another file to begin anew",
+        path.display()
+    ))
 }
 
-/// The name with an extension more; a dot that the name has itself stays.
-fn with_appended(name: impl Into<OsString>, extension: &str) -> OsString {
-    let mut name = name.into();
-    name.push(".");
-    name.push(extension);
-    name
-}
-
-fn unwritable(path: &Path, e: &Error) -> Failure {
-    disk::unwritable(path, e, "--out takes a folder that can be written")
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn progress_bar() -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(1000);
-    if let Ok(style) = ProgressStyle::with_template("  measuring {bar:40} {percent:>3} %  {elapsed}") {
-        bar.set_style(style);
-    }
-    bar
+/// Whatever was asked for beside the checkpoint has been done.
+fn unfinished(path: &std::path::Path, e: &std::io::Error) -> Failure {
+    Failure::Run(format!("error: the checkpoint `{}` is not finished: {e}", path.display()))
 }

@@ -21,7 +21,7 @@
 //! | `sample` | points of a function, colours along an axis |
 //! | `sensor`, `polar` | responsivity and directional response of sensors |
 //! | `wavelength_colour` | colours of wavelengths, smooth to the eye |
-//! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody` | a plot each |
+//! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody`, `convergence` | a plot each |
 //!
 //! ```
 //! use etendue::report::plot::{self, Size, Style, Theme};
@@ -39,6 +39,7 @@ pub mod chart;
 pub mod chromaticity;
 pub mod cmf;
 pub mod cones;
+pub mod convergence;
 mod error;
 mod labels;
 mod layout;
