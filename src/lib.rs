@@ -65,6 +65,7 @@
 //! | 6 | [`measurement`] | estimates → readings with budget and provenance | printing |
 //! | 7 | [`characterization`] | quality indices of instruments | fitting, printing |
 //! | 7 | [`lecture`] | the equations of a lecture by name, each a call of the library | physics of its own |
+//! | 7 | [`study`] | scenes measured many times over: what readings are worth | printing, clocks of its own |
 //! | 8 | [`report`] | text, JSON, CSV, plots | computing anything else |
 //! | 9 | `bin/etendue` | arguments, files, screens | physics |
 //!
@@ -104,4 +105,5 @@ pub mod scene;
 pub mod sensor;
 pub mod source;
 pub mod spectrum;
+pub mod study;
 pub mod surface;

@@ -7,6 +7,7 @@
 //! | `csv.rs` | a row a reading, for spreadsheets |
 //! | `lecture/` | equations of the lecture and the table of quantities, as text and JSON |
 //! | `spectrum/` | the quantities of one spectrum, in the same three forms |
+//! | `stability/` | sweeps of numerical stability |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
 pub mod csv;
@@ -15,4 +16,5 @@ pub mod lecture;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod spectrum;
+pub mod stability;
 pub mod text;

@@ -17,6 +17,7 @@ mod measure;
 #[cfg(feature = "plot")]
 mod plot;
 mod spectrum;
+mod stability;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -48,6 +49,8 @@ enum Command {
     Plot(plot::Arguments),
     /// Every quantity of one spectrum.
     Spectrum(spectrum::Arguments),
+    /// Drive scenes to where they are stiff or extreme, and hold their readings against closed forms and laws.
+    Stability(stability::Arguments),
 }
 
 /// Why a command ended early; what it has to say is on stderr already or is said here.
@@ -68,6 +71,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "plot")]
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),
+        Command::Stability(arguments) => stability::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
