@@ -57,7 +57,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // A place that cannot be used is told before minutes are spent.
     for (i, file) in files.iter().enumerate() {
         if i > 0 && files[i - 1] == *file {
-            return Err(Failure::Input(format!("error: --out and --markdown both name `{}`\n  = help: give them a file each", file.display())));
+            return Err(Failure::Input(format!(
+                "error: --out and --markdown both name `{}`\n  = help: give them a file each",
+                file.display()
+            )));
         }
         writable(file)?;
     }

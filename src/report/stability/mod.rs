@@ -117,10 +117,9 @@ fn verdict(results: &[SweepResult]) -> String {
     )
 }
 
-/// A parameter: plain or with a power of ten, whichever is shorter.
+/// A parameter, with a power of ten where it is large or small.
 fn number(x: f64) -> String {
-    let (plain, power) = (format!("{x}"), format!("{x:e}"));
-    if plain.len() <= power.len().max(10) { plain } else { power }
+    if x == 0.0 || (1e-3..1e6).contains(&x.abs()) { format!("{x}") } else { format!("{x:e}") }
 }
 
 /// A reading with nine digits.

@@ -50,8 +50,9 @@ fn points() -> Vec<Point> {
             // A disc whose sine seen from 1 m is `share` times that of the cone, or which covers 80° where that is not possible.
             let sine = (share * alpha.sin()).min(80f64.to_radians().sin());
             let radius = sine / ((1.0 - sine) * (1.0 + sine)).sqrt();
-            let disc =
-                format!("(name: \"disc\", shape: Disc({radius:e}), at: (0, 0, 1), facing: (0, 0, -1), strength: Radiance(7), spectrum: Line(555))");
+            let disc = format!(
+                "(name: \"disc\", shape: Disc({radius:e}), at: (0, 0, 1), facing: (0, 0, -1), strength: Radiance(7), spectrum: Line(555))"
+            );
             let scene = upwards_with(&radiance_meter(alpha.to_degrees()), "", &disc);
             points.push(Point::new(series, omega, scene, Reference::exactly(closed)));
         }

@@ -50,7 +50,9 @@ fn points() -> Vec<Point> {
     let paint = library::factor("ColorChecker red").unwrap_or(Factor::Constant(f64::NAN));
     for width in widths().filter(|width| *width <= 10.0) {
         let closed = 2.0 / PI * folded(&paint, 605.0, width);
-        points.push(Point::new("reflected", width, wall(width), Reference::Values { values: vec![closed], relative: 1e-14 }).sampled(1 << 10));
+        points.push(
+            Point::new("reflected", width, wall(width), Reference::Values { values: vec![closed], relative: 1e-14 }).sampled(1 << 10),
+        );
     }
     points
 }

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | lit | outside, on the bright side | E = πL R²/(R² + 1) |
 //! | quarter | where the edge hides x < R/2 of the disc | the integral over the rest |
-//! | rim | where only x > 0.998 R is seen, 10⁻⁴ of the disc | the integral over it |
+//! | rim | where only x > 0.998 R is seen, 4·10⁻⁵ of the disc | the integral over it |
 //! | shadow | outside, on the dark side | 0 |
 //! | point | on the dark and the bright side of a point's shadow, as far from its edge as the parameter says | I/r², 0 |
 

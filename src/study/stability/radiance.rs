@@ -14,13 +14,8 @@ use super::text::upwards;
 use super::{Point, Reference, Sweep, decades};
 
 /// The sweep.
-pub const SWEEP: Sweep = Sweep {
-    name: "radiance",
-    parameter: "radiance",
-    unit: "W m⁻² sr⁻¹",
-    law: "readings are proportional to the radiance",
-    points,
-};
+pub const SWEEP: Sweep =
+    Sweep { name: "radiance", parameter: "radiance", unit: "W m⁻² sr⁻¹", law: "readings are proportional to the radiance", points };
 
 fn points() -> Vec<Point> {
     let radiances = || decades(-30, 30, 5);

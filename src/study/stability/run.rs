@@ -110,9 +110,8 @@ impl SweepResult {
 
     fn failing(&self, series: &'static str) -> Failing {
         let rows: Vec<&Row> = self.rows.iter().filter(|row| row.series == series).collect();
-        let largest = |of: fn(&Row) -> Option<f64>| {
-            rows.iter().filter(|r| r.judgement == Judgement::Holds).filter_map(|r| of(r)).fold(0.0, f64::max)
-        };
+        let largest =
+            |of: fn(&Row) -> Option<f64>| rows.iter().filter(|r| r.judgement == Judgement::Holds).filter_map(|r| of(r)).fold(0.0, f64::max);
         Failing {
             series,
             from: rows.first().map_or(f64::NAN, |r| r.parameter),

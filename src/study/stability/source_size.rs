@@ -17,13 +17,10 @@ use super::text::{radiance_meter, upwards};
 use super::{Point, Reference, Sweep, decades};
 
 /// The sweep.
-pub const SWEEP: Sweep = Sweep {
-    name: "source-solid-angle",
-    parameter: "solid angle of the source",
-    unit: "sr",
-    law: "E = π L sin²α = L Ω (1 − Ω/4π)",
-    points,
-};
+pub const SWEEP: Sweep =
+    Sweep {
+        name: "source-solid-angle", parameter: "solid angle of the source", unit: "sr", law: "E = π L sin²α = L Ω (1 − Ω/4π)", points
+    };
 
 fn points() -> Vec<Point> {
     let sizes = || decades(-12, 0, 1).into_iter().rev();
@@ -55,8 +52,9 @@ fn disc_radius(omega: f64) -> f64 {
 /// A meter below a disc of this radius at 1 m, half of which an edge hides.
 pub(super) fn half_hidden(radius: f64, radiance: f64) -> String {
     let edge = "(name: \"edge\", shape: Quad(corner: (0, -4, 0.5), u: (4, 0, 0), v: (0, 8, 0)), surface: \"black\")";
-    let source =
-        format!("(name: \"disc\", shape: Disc({radius:e}), at: (0, 0, 1), facing: (0, 0, -1), strength: Radiance({radiance:e}), spectrum: Line(555))");
+    let source = format!(
+        "(name: \"disc\", shape: Disc({radius:e}), at: (0, 0, 1), facing: (0, 0, -1), strength: Radiance({radiance:e}), spectrum: Line(555))"
+    );
     upwards(edge, &source)
 }
 
