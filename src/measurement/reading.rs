@@ -1,18 +1,16 @@
 //! Readings of all instruments of a scene.
 
 use super::Provenance;
+use super::coordinates::Coordinates;
 use crate::estimate::{ChannelEstimate, Counters, EstimateError, PoseEstimate, Stop, Watch, estimate};
 use crate::math::DVec3;
 use crate::metrology::{Budget, BudgetRow, Expanded, Replicates};
 use crate::plan::{Bound, Plan};
 use crate::quantity::Measurand;
 use crate::scene::{Instrument, Layout, Scene};
-use crate::source::{Emitter, Source};
 
 /// Relative half-width within which double-precision arithmetic keeps a formula; the formulas are tested far below it.
 const ARITHMETIC: f64 = 1e-12;
-/// Share of its size at which a pose is taken to be on a source.
-const SAME: f64 = 1e-9;
 
 /// What an instrument indicates in one pose and channel.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,10 +76,11 @@ pub fn measure(scene: &Scene, plan: &Plan, stop: &Stop, seed: u64, watch: &Watch
     let start = (watch.now)();
     let estimates = estimate(scene, plan, stop, seed, watch)?;
     let mut readings = Vec::new();
+    let coordinates = Coordinates::of(scene);
     for (i, (instrument, poses)) in scene.instruments.iter().zip(&estimates.poses).enumerate() {
         let left_out: Vec<LeftOut> = (0..instrument.sensor.channels.len()).map(|c| LeftOut::of(plan, i, c)).collect();
         for (index, pose) in poses.iter().enumerate() {
-            let coordinates = rounding_of_coordinates(scene, instrument.poses[index].at);
+            let coordinates = coordinates.share(scene, instrument.poses[index].at);
             for (c, channel) in pose.channels.iter().enumerate() {
                 let reading = read(instrument, index, c, (pose, coordinates), channel, &left_out[c]);
                 if !(reading.value.is_finite() && reading.expanded.expanded_uncertainty.is_finite()) {
@@ -125,31 +124,6 @@ impl LeftOut {
     }
 }
 
-/// What the rounding of coordinates costs a reading, as a share of it, at most: far from the origin doubles are coarse.
-///
-/// ```text
-/// a coordinate c is rounded by ½ ε |c|, the vector between two points by δ ≤ √3 ε max|c|       E ∝ cos θ / r²  →  3 δ / r
-/// ```
-///
-/// r is the distance of the nearest source. A pose on a source has none; there the bounding sphere is the scale.
-fn rounding_of_coordinates(scene: &Scene, at: DVec3) -> f64 {
-    let share = |point: DVec3, distance_m: f64| {
-        let largest = at.abs().max_element().max(point.abs().max_element().min(at.abs().max_element() + distance_m));
-        if distance_m > 0.0 { 3.0 * 3f64.sqrt() * f64::EPSILON * largest / distance_m } else { 0.0 }
-    };
-    let of_source = |source: &Source| match &source.emitter {
-        Emitter::Point { at: lamp } => share(*lamp, (*lamp - at).length()),
-        Emitter::Area { elements } => elements.iter().fold(0.0, |most: f64, (element, _)| {
-            let shape = &scene.elements[*element].shape;
-            let (centre, radius_m) = shape.bounding_sphere();
-            let distance_m = shape.distance_m(at);
-            most.max(share(centre, if distance_m > SAME * radius_m { distance_m } else { radius_m }))
-        }),
-        Emitter::Directional { .. } | Emitter::Environment => 0.0,
-    };
-    scene.sources.iter().map(of_source).fold(0.0, f64::max)
-}
-
 fn read(
     instrument: &Instrument,
     index: usize,
@@ -184,7 +158,7 @@ fn read(
         }
         budget.push(BudgetRow::rectangular("double-precision arithmetic", ARITHMETIC * (scale * estimate.exact.value).abs()));
         if coordinates > ARITHMETIC {
-            budget.push(BudgetRow::rectangular("coordinates far from the origin", coordinates * (scale * estimate.exact.value).abs()));
+            budget.push(BudgetRow::rectangular("rounding of coordinates", coordinates * (scale * estimate.exact.value).abs()));
         }
     }
     for &(rule, bound) in &left_out.bounds {
