@@ -379,7 +379,7 @@ fn the_command_writes_whole_files_and_says_which() {
         names.sort();
         names
     };
-    let failing: [(&[&str], &[&str]); 9] = [
+    let failing: [(&[&str], &[&str]); 11] = [
         (&["plot", "v-lambda", "--out", "plot.gif"], &[".gif", ".svg, .png", "plot.svg"]),
         (&["plot", "v-lambda", "skotopic"], &["skotopic", "V'(lambda)"]),
         (&["plot", "konus"], &["konus", "cones"]),
@@ -387,6 +387,8 @@ fn the_command_writes_whole_files_and_says_which() {
         (&["plot", "spectrum", "D56", "FL99"], &["D56", "D55", "FL99"]),
         (&["plot", "reflectance", "ColorChecker pink"], &["pink", "ColorChecker"]),
         (&["plot", "blackbody", "-3"], &["-3", "1 K"]),
+        (&["plot", "cmf", "--out", "cmf.svg", "--csv", "cmf.svg"], &["cmf.svg", "a name of their own"]),
+        (&[&["plot", "spectrum"][..], &["D65"; 25]].concat(), &["25", "at most 24"]),
         (&["plot", "cmf", "--size", "10x10"], &["10x10", "slide"]),
         (&["plot", "spectrum", "D65", "--range", "700,400"], &["700,400", "380,780"]),
     ];
@@ -400,6 +402,6 @@ fn the_command_writes_whole_files_and_says_which() {
     assert_eq!((code, message.as_str()), (Some(0), "wrote cones.svg\nwrote cones.csv\n"));
     assert_eq!(names(), ["cones.csv", "cones.svg"]);
     let (code, message) = etendue(&folder, &["plot", "cmf", "--out", "nowhere/x.png"]);
-    assert_eq!(code, Some(1), "{message}");
+    assert_eq!(code, Some(2), "{message}");
     std::fs::remove_dir_all(&folder).expect("removable");
 }

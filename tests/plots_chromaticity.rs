@@ -233,3 +233,11 @@ fn a_response_that_depends_on_the_azimuth_has_several_cuts() {
         }
     }
 }
+
+#[test]
+fn a_white_point_that_is_also_a_spectrum_stands_there_once() {
+    let spectra = vec![("D65".to_owned(), library::density("D65").expect("of the library"))];
+    let chart = chart(&Contents { spectra, ..Contents::new(Diagram::Xy, Matching::Cie1931) }).expect("a diagram");
+    let names: Vec<&str> = chart.points.iter().map(|point| point.label.as_str()).collect();
+    assert_eq!(names, ["A", "D50", "E", "D65"]);
+}

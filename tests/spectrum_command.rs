@@ -49,6 +49,19 @@ fn a_line_of_one_watt_gives_the_lumens_of_v_lambda() {
 }
 
 #[test]
+fn a_unit_in_the_name_of_a_column_counts_as_one_in_the_header() {
+    for (name, head) in [
+        ("header", "# unit: W/(m2 nm)\nwavelength_nm,value\n400,1\n500,1\n"),
+        ("brackets", "wavelength_nm,irradiance (W/(m² nm))\n400,1\n500,1\n"),
+        ("underscores", "wavelength_nm,irradiance_w_m2_nm\n400,1\n500,1\n"),
+        ("strokes", "wavelength_nm,W/m2/µm\n400,1000\n500,1000\n"),
+    ] {
+        let sheet = json(&[file(&format!("{name}.csv"), head.as_bytes()).to_str().unwrap()]);
+        assert!((number(&sheet, "radiant") / 100.0 - 1.0).abs() < 1e-12, "{name}: {sheet}");
+    }
+}
+
+#[test]
 fn the_page_has_a_unit_or_a_name_for_every_number() {
     let output = spectrum(&["D65"]);
     let page = text(&output.stdout);
@@ -163,7 +176,7 @@ fn mistakes_end_with_code_2_and_say_what_to_type() {
     for (arguments, words) in [
         (&["D66"][..], &["D65"][..]),
         (&["V"], &["spectral distribution"]),
-        (&["BlackBody(-3)"], &["above 0 K"]),
+        (&["BlackBody(-3)"], &["1e-12 K to 1e9 K"]),
         (&["no-such-file.csv"], &["no-such-file.csv"]),
         (&[empty], &["empty.csv"]),
         (&[broken], &["broken.csv:4", "broken.csv:5", "broken.csv:6"]),
@@ -181,4 +194,49 @@ fn mistakes_end_with_code_2_and_say_what_to_type() {
             assert!(message.contains(word), "{arguments:?}: {word} in\n{message}");
         }
     }
+}
+
+#[test]
+fn a_unit_and_a_quantity_that_contradict_each_other_are_told() {
+    let rows = "400,1\n500,2\n600,1\n";
+    let of = |name: &str, header: &str, more: &[&str]| {
+        let path = file(name, format!("# wavelength_unit: nm\n{header}{rows}").as_bytes());
+        let output = spectrum(&[&[path.to_str().unwrap()], more].concat());
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    let (code, _, told) = of("contradiction.csv", "# unit: W/(m2 nm)\n# quantity: spectral radiance\n", &[]);
+    assert!(code == Some(2) && told.contains("that of a spectral irradiance") && told.contains("`spectral radiance`"), "{told}");
+    let (code, page, _) = of("exitance.csv", "# unit: W/(m2 nm)\n# quantity: spectral radiant exitance\n", &[]);
+    assert!(code == Some(0) && page.contains("absolute: spectral radiant exitance"), "{page}");
+    let (code, _, told) = of("multiple.csv", "# unit: mW/(m2 nm)\n", &["--quantity", "irradiance"]);
+    assert!(code == Some(0) && told.contains("no number is converted"), "{told}");
+}
+
+#[test]
+fn what_is_out_of_the_range_of_numbers_is_said() {
+    let huge = file("huge.csv", b"# wavelength_unit: nm\n# per: nm\n400,1e308\n500,1e308\n600,1e308\n");
+    let output = spectrum(&[huge.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("1.8e308"));
+    let cold = spectrum(&["BlackBody(1)", "--quantity", "radiance"]);
+    assert!(cold.status.success() && text(&cold.stderr).contains("below 1e-308"), "{}", text(&cold.stderr));
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_written_to_and_not_replaced() {
+    use std::os::unix::fs::FileTypeExt;
+    let pipe = file("pipe", b"");
+    std::fs::remove_file(&pipe).unwrap();
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let mut reader = Command::new("cat").arg(&pipe).stdout(std::process::Stdio::piped()).spawn().unwrap();
+    let output = spectrum(&["D65", "--out", pipe.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let still_a_pipe = std::fs::metadata(&pipe).unwrap().file_type().is_fifo();
+    if !still_a_pipe {
+        reader.kill().unwrap();
+    }
+    let read = text(&reader.wait_with_output().unwrap().stdout);
+    assert!(still_a_pipe && read.contains("illuminance"), "{read}");
+    std::fs::remove_file(&pipe).unwrap();
 }

@@ -5,8 +5,8 @@
 //! | `spectral_mismatch` | f1′, spectral mismatch correction factor F | a spectral responsivity |
 //! | `directional_mismatch` | f2 | a directional response |
 //!
-//! Pure functions on curves. The defining standards (ISO/CIE 19476, CIE S 023, DIN 5032-7) were not at hand when this was written; what
-//! could not be checked against their text is an input here, and each file says so.
+//! Pure functions on curves. What could not be checked against the text of the defining standards (ISO/CIE 19476, CIE S 023, DIN 5032-7)
+//! is an input here, and each file says so.
 
 pub mod directional_mismatch;
 pub mod spectral_mismatch;

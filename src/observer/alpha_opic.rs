@@ -3,8 +3,8 @@
 //! ```text
 //! E_α   = ∫ E_e,λ s_α dλ              α-opic irradiance, W/m²
 //! K_α,v = E_α / E_v                   α-opic efficacy of luminous radiation (ELR), W/lm
-//! E_α^D65 = E_α / K_α,v(D65)          α-opic equivalent daylight (D65) illuminance (EDI), lx
-//! γ_α,v = K_α,v / K_α,v(D65)          α-opic daylight (D65) efficacy ratio (DER)
+//! E_v,α^D65 = E_α / K_α,v(D65)        α-opic equivalent daylight (D65) illuminance (EDI), lx
+//! γ_α,v^D65 = K_α,v / K_α,v(D65)      α-opic daylight (D65) efficacy ratio (DER)
 //! ```
 //!
 //! | α | photoreceptor | K_α,v(D65) in mW/lm |

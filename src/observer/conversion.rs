@@ -15,7 +15,7 @@
 //!
 //! S(λ) is the spectrum of the light; its scale cancels. The row of the table stays: irradiance becomes illuminance, radiance luminance.
 //! Where 683 and 683.002 come from is written in [`constants`](crate::quantity::constants); the wavelengths of a
-//! spectrum are in air, and photons have the energy of those in vacuum ([`photometry`](crate::spectrum::photometry)).
+//! spectrum are in air, and photons have the energy of those in vacuum ([`photometry`]).
 //!
 //! ```
 //! use etendue::observer::conversion::convert;

@@ -60,11 +60,23 @@ extents! {
 
 impl Area {
     /// Area of a disc of radius `radius_m`.
+    ///
+    /// ```
+    /// use etendue::quantity::Area;
+    ///
+    /// assert_eq!(Area::disc(2.0).value(), 4.0 * std::f64::consts::PI);
+    /// ```
     pub fn disc(radius_m: f64) -> Self {
         Self(PI * radius_m * radius_m)
     }
 
     /// Area of a sphere's surface of radius `radius_m`.
+    ///
+    /// ```
+    /// use etendue::quantity::Area;
+    ///
+    /// assert_eq!(Area::sphere(0.5).value(), std::f64::consts::PI);
+    /// ```
     pub fn sphere(radius_m: f64) -> Self {
         Self(4.0 * PI * radius_m * radius_m)
     }
@@ -77,6 +89,13 @@ impl SolidAngle {
     pub const HEMISPHERE: Self = Self(2.0 * PI);
 
     /// A cone of half angle `half_angle_rad`, 0 to π: `4π sin²(α/2)`.
+    ///
+    /// ```
+    /// use etendue::quantity::SolidAngle;
+    ///
+    /// // The sun, 0.533° across.
+    /// assert!((SolidAngle::cone(0.2665_f64.to_radians()).value() / 6.797e-5 - 1.0).abs() < 1e-3);
+    /// ```
     pub fn cone(half_angle_rad: f64) -> Self {
         let s = (0.5 * half_angle_rad).sin();
         Self(4.0 * PI * s * s)
@@ -85,17 +104,36 @@ impl SolidAngle {
 
 impl Etendue {
     /// A small area seen within a small solid angle, at an angle of cosine `cosine` to its normal: `A cos θ Ω`.
+    ///
+    /// ```
+    /// use etendue::quantity::{Area, Etendue, SolidAngle};
+    ///
+    /// assert_eq!(Etendue::small(Area::new(2.0), 0.5, SolidAngle::new(0.25)).to_string(), "0.25 m² sr");
+    /// ```
     pub fn small(area: Area, cosine: f64, solid_angle: SolidAngle) -> Self {
         Self(area.0 * cosine * solid_angle.0)
     }
 
     /// A cone of half angle `half_angle_rad`, 0 to π/2, about the normal of a flat area: `π A sin²α`.
+    ///
+    /// ```
+    /// use etendue::quantity::{Area, Etendue};
+    ///
+    /// let wide_open = Etendue::cone(Area::new(1.0), std::f64::consts::FRAC_PI_2);
+    /// assert_eq!(wide_open, Etendue::hemisphere(Area::new(1.0)));
+    /// ```
     pub fn cone(area: Area, half_angle_rad: f64) -> Self {
         let s = half_angle_rad.sin();
         Self(PI * area.0 * s * s)
     }
 
     /// The half space over a flat area: `π A`.
+    ///
+    /// ```
+    /// use etendue::quantity::{Area, Etendue};
+    ///
+    /// assert_eq!(Etendue::hemisphere(Area::new(1.0)).value(), std::f64::consts::PI);
+    /// ```
     pub fn hemisphere(area: Area) -> Self {
         Self(PI * area.0)
     }

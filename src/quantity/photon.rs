@@ -22,6 +22,13 @@ const NANOMETRES_PER_METRE: f64 = 1e9;
 const MICROMOLES_PER_MOLE: f64 = 1e6;
 
 /// Energy of one photon, in J, of the wavelength `wavelength_vacuum_nm` in nanometres, above zero: `h c / λ`.
+///
+/// ```
+/// use etendue::quantity::photon::{electronvolts, photon_energy_j};
+///
+/// // Green light: 2.23 eV.
+/// assert!((electronvolts(photon_energy_j(555.0)) - 2.234).abs() < 1e-3);
+/// ```
 pub fn photon_energy_j(wavelength_vacuum_nm: f64) -> f64 {
     PLANCK_J_S * SPEED_OF_LIGHT_M_S / (wavelength_vacuum_nm / NANOMETRES_PER_METRE)
 }
@@ -48,6 +55,11 @@ pub fn angular_frequency_rad_s(wavelength_vacuum_nm: f64) -> f64 {
 }
 
 /// Energy of one photon, in J, of the angular frequency `angular_frequency_rad_s`: `ħ ω`.
+///
+/// ```
+/// let energy_j = etendue::quantity::photon::photon_energy_of_angular_frequency_j(1e15);
+/// assert!((energy_j / 1.054571817e-19 - 1.0).abs() < 1e-9);
+/// ```
 pub fn photon_energy_of_angular_frequency_j(angular_frequency_rad_s: f64) -> f64 {
     REDUCED_PLANCK_J_S * angular_frequency_rad_s
 }
@@ -63,16 +75,36 @@ pub fn electronvolts(energy_j: f64) -> f64 {
 }
 
 /// Photons per joule of monochromatic radiation, in 1/J: `λ / (h c)`.
+///
+/// ```
+/// let photons = etendue::quantity::photon::photons_per_joule(555.0);
+/// assert!((photons / 2.794e18 - 1.0).abs() < 1e-4);
+/// ```
 pub fn photons_per_joule(wavelength_vacuum_nm: f64) -> f64 {
     wavelength_vacuum_nm / NANOMETRES_PER_METRE / (PLANCK_J_S * SPEED_OF_LIGHT_M_S)
 }
 
 /// Photon flux of a monochromatic radiant flux: `Φ_p = Φ_e λ / (h c)`.
+///
+/// ```
+/// use etendue::quantity::{photon::monochromatic_photon_flux, table::RadiantFlux};
+///
+/// // A pointer of a milliwatt.
+/// let photons = monochromatic_photon_flux(RadiantFlux::new(1e-3), 632.8);
+/// assert!((photons.value() / 3.1856e15 - 1.0).abs() < 1e-4);
+/// ```
 pub fn monochromatic_photon_flux(flux: RadiantFlux, wavelength_vacuum_nm: f64) -> PhotonFlux {
     PhotonFlux::new(flux.value() * photons_per_joule(wavelength_vacuum_nm))
 }
 
 /// Photon irradiance of a monochromatic irradiance: `E_p = E_e λ / (h c)`.
+///
+/// ```
+/// use etendue::quantity::{photon::monochromatic_photon_irradiance, table::Irradiance};
+///
+/// let blue = monochromatic_photon_irradiance(Irradiance::new(1.0), 450.0);
+/// assert!((blue.umol_m2_s() - 3.7617).abs() < 1e-4);
+/// ```
 pub fn monochromatic_photon_irradiance(irradiance: Irradiance, wavelength_vacuum_nm: f64) -> PhotonIrradiance {
     PhotonIrradiance::new(irradiance.value() * photons_per_joule(wavelength_vacuum_nm))
 }
@@ -101,11 +133,24 @@ impl<K> Quantity<K, system::Photon> {
 
 impl PhotonIrradiance {
     /// The number in µmol/(m² s), the unit of plant physiology: `E_p / N_A`.
+    ///
+    /// ```
+    /// use etendue::quantity::table::PhotonIrradiance;
+    ///
+    /// assert_eq!(PhotonIrradiance::new(6.02214076e17).umol_m2_s(), 1.0);
+    /// ```
     pub fn umol_m2_s(self) -> f64 {
         self.value() / AVOGADRO_PER_MOL * MICROMOLES_PER_MOLE
     }
 
     /// From a number in µmol/(m² s).
+    ///
+    /// ```
+    /// use etendue::quantity::table::PhotonIrradiance;
+    ///
+    /// // Full sun on leaves.
+    /// assert!((PhotonIrradiance::from_umol_m2_s(2000.0).value() / 1.204428152e21 - 1.0).abs() < 1e-15);
+    /// ```
     pub fn from_umol_m2_s(umol_m2_s: f64) -> Self {
         Self::new(umol_m2_s / MICROMOLES_PER_MOLE * AVOGADRO_PER_MOL)
     }

@@ -89,11 +89,23 @@ impl<S> Div<Duration> for Quantity<kind::Energy, S> {
 
 impl<S> Quantity<kind::Flux, S> {
     /// Mean flux density of this flux arriving on `area`: `E = Φ / A`.
+    ///
+    /// ```
+    /// use etendue::quantity::{Area, table::LuminousFlux};
+    ///
+    /// assert_eq!(LuminousFlux::new(6000.0).arriving_on(Area::new(12.0)).to_string(), "500 lx");
+    /// ```
     pub fn arriving_on(self, area: Area) -> Quantity<kind::FluxDensityIn, S> {
         Quantity::new(self.value() / area.value())
     }
 
     /// Mean flux density of this flux leaving `area`: `M = Φ / A`.
+    ///
+    /// ```
+    /// use etendue::quantity::{Area, table::RadiantFlux};
+    ///
+    /// assert_eq!(RadiantFlux::new(5.0).leaving(Area::new(0.25)).to_string(), "20 W/m²");
+    /// ```
     pub fn leaving(self, area: Area) -> Quantity<kind::FluxDensityOut, S> {
         Quantity::new(self.value() / area.value())
     }
@@ -102,6 +114,12 @@ impl<S> Quantity<kind::Flux, S> {
 impl<S> Quantity<kind::Intensity, S> {
     /// Flux density on a surface at `distance` from a small source, whose normal makes an angle of cosine `cosine` with
     /// the direction to the source: `E = I cos θ / r²`. A source behind the surface (negative cosine) gives zero.
+    ///
+    /// ```
+    /// use etendue::quantity::{Distance, table::LuminousIntensity};
+    ///
+    /// assert_eq!(LuminousIntensity::new(100.0).arriving_at(Distance::new(2.0), 0.5).to_string(), "12.5 lx");
+    /// ```
     pub fn arriving_at(self, distance: Distance, cosine: f64) -> Quantity<kind::FluxDensityIn, S> {
         // Written as a comparison and not as a maximum, because a maximum would turn NaN into zero.
         let facing = if cosine < 0.0 { 0.0 } else { cosine };
@@ -112,11 +130,24 @@ impl<S> Quantity<kind::Intensity, S> {
 
 impl<S> Quantity<kind::Radiance, S> {
     /// Exitance of a Lambertian surface of this radiance: `M = π L`.
+    ///
+    /// ```
+    /// use etendue::quantity::table::Luminance;
+    ///
+    /// assert_eq!(Luminance::new(1.0).lambertian_exitance().value(), std::f64::consts::PI);
+    /// ```
     pub fn lambertian_exitance(self) -> Quantity<kind::FluxDensityOut, S> {
         Quantity::new(PI * self.value())
     }
 
     /// Flux density on a flat surface under a half space of this uniform radiance: `E = π L`.
+    ///
+    /// ```
+    /// use etendue::quantity::table::Luminance;
+    ///
+    /// let overcast = Luminance::new(3000.0).under_uniform_hemisphere();
+    /// assert_eq!(format!("{overcast:.0}"), "9425 lx");
+    /// ```
     pub fn under_uniform_hemisphere(self) -> Quantity<kind::FluxDensityIn, S> {
         Quantity::new(PI * self.value())
     }
@@ -124,6 +155,12 @@ impl<S> Quantity<kind::Radiance, S> {
 
 impl<S> Quantity<kind::FluxDensityOut, S> {
     /// Radiance of a Lambertian surface of this exitance: `L = M / π`.
+    ///
+    /// ```
+    /// use etendue::quantity::table::LuminousExitance;
+    ///
+    /// assert_eq!(format!("{:.2}", LuminousExitance::new(1000.0).lambertian_radiance()), "318.31 cd/m²");
+    /// ```
     pub fn lambertian_radiance(self) -> Quantity<kind::Radiance, S> {
         Quantity::new(self.value() / PI)
     }

@@ -160,7 +160,9 @@ impl<'d> Value<'d> {
         if holds(x) {
             return Some(x);
         }
-        self.problem(problems, format!("{what} is {x}"), format!("allowed: {allowed}"));
+        let readable = x == 0.0 || (1e-5..1e16).contains(&x.abs());
+        let found = if readable { format!("{what} is {x}") } else { format!("{what} is {x:e}") };
+        self.problem(problems, found, format!("allowed: {allowed}"));
         None
     }
 

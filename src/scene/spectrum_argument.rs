@@ -184,7 +184,7 @@ mod tests {
             ("lamp.cvs", 1, "no spectrum called"),
             ("lmap.csv", 1, "did you mean `lamp.csv`"),
             ("BlackBdy(3000)", 1, "did you mean `BlackBody`"),
-            ("BlackBody(-3)", 11, "above 0 K"),
+            ("BlackBody(-3)", 11, "1e-12 K to 1e9 K"),
             ("BlackBody", 1, "write `BlackBody(2856)`"),
             ("Daylight(cct_k: 3000)", 17, "4000 to 25000"),
             ("Sum([(0.7, \"A\"), (0.3, Lin(546))])", 24, "did you mean `Line`"),

@@ -70,7 +70,7 @@ pub(super) fn read_spectrum(value: &Value, reading: &mut Reading) -> Option<Dens
         "BlackBody" => {
             let item = value.positional(1, "BlackBody(2856)", &mut reading.problems)?.into_iter().next()?;
             let temperature_k =
-                item.number_in("the temperature", "above 0 K, up to 1e9 K", |t| t > 0.0 && t <= 1e9, &mut reading.problems)?;
+                item.number_in("the temperature", "1e-12 K to 1e9 K", |t| (1e-12..=1e9).contains(&t), &mut reading.problems)?;
             checked(value, Density::black_body(temperature_k), reading)
         }
         "Daylight" => {

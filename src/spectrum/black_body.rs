@@ -19,6 +19,10 @@ pub const SECOND_RADIATION_CONSTANT_NM_K: f64 = SECOND_RADIATION_CONSTANT_M_K * 
 /// `2ck` in W m² sr⁻¹ K⁻¹ and nm: the Rayleigh–Jeans radiance is this times `T/λ⁴` with λ in nm, per nm.
 const RAYLEIGH_JEANS: f64 = 2.0 * SPEED_OF_LIGHT_M_S * BOLTZMANN_J_K * 1e36 * 1e-9;
 
+/// Temperatures of a black body as a spectrum, K: from below anything that was ever cooled to above anything that radiates thermally.
+/// Beyond them the fourth power and the wavelengths leave the range of `f64`.
+pub const TEMPERATURES_K: (f64, f64) = (1e-12, 1e12);
+
 /// `c₂/(λT)`, the photon energy in units of kT.
 fn reduced_energy(wavelength_nm: f64, temperature_k: f64) -> f64 {
     SECOND_RADIATION_CONSTANT_NM_K / wavelength_nm / temperature_k
@@ -31,6 +35,13 @@ fn is_physical(wavelength_nm: f64, temperature_k: f64) -> bool {
 
 /// Spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹; zero for arguments that are not positive and finite.
 /// Underflows to zero where the logarithm is below -745.
+///
+/// ```
+/// use etendue::spectrum::black_body::spectral_radiance;
+///
+/// // The sun in the green, per nm.
+/// assert!((spectral_radiance(555.0, 5772.0) / 25_633.0 - 1.0).abs() < 1e-5);
+/// ```
 pub fn spectral_radiance(wavelength_nm: f64, temperature_k: f64) -> f64 {
     if !is_physical(wavelength_nm, temperature_k) {
         return 0.0;
@@ -47,6 +58,14 @@ pub fn spectral_radiance(wavelength_nm: f64, temperature_k: f64) -> f64 {
 
 /// Natural logarithm of [`spectral_radiance`] in W m⁻² sr⁻¹ nm⁻¹, without overflow or underflow;
 /// `-inf` for arguments that are not positive and finite.
+///
+/// ```
+/// use etendue::spectrum::black_body::{ln_spectral_radiance, spectral_radiance};
+///
+/// // Visible light from liquid helium is too little for a number, but not for its logarithm.
+/// assert_eq!(spectral_radiance(555.0, 4.2), 0.0);
+/// assert!(ln_spectral_radiance(555.0, 4.2) < -6000.0);
+/// ```
 pub fn ln_spectral_radiance(wavelength_nm: f64, temperature_k: f64) -> f64 {
     if !is_physical(wavelength_nm, temperature_k) {
         return f64::NEG_INFINITY;
@@ -62,21 +81,46 @@ pub fn ln_spectral_radiance(wavelength_nm: f64, temperature_k: f64) -> f64 {
 }
 
 /// Spectral exitance `π L_λ`, W m⁻² nm⁻¹.
+///
+/// ```
+/// use etendue::spectrum::black_body::{spectral_exitance, spectral_radiance};
+///
+/// assert_eq!(spectral_exitance(1e4, 300.0), std::f64::consts::PI * spectral_radiance(1e4, 300.0));
+/// ```
 pub fn spectral_exitance(wavelength_nm: f64, temperature_k: f64) -> f64 {
     PI * spectral_radiance(wavelength_nm, temperature_k)
 }
 
 /// Radiance over all wavelengths, `σT⁴/π`, W m⁻² sr⁻¹.
+///
+/// ```
+/// use etendue::spectrum::black_body::radiance_w_m2_sr;
+///
+/// assert!((radiance_w_m2_sr(2856.0) / 1.200_866e6 - 1.0).abs() < 1e-6);
+/// ```
 pub fn radiance_w_m2_sr(temperature_k: f64) -> f64 {
     exitance_w_m2(temperature_k) / PI
 }
 
 /// Exitance over all wavelengths, `σT⁴`, W m⁻².
+///
+/// ```
+/// use etendue::spectrum::black_body::exitance_w_m2;
+///
+/// // A room.
+/// assert!((exitance_w_m2(300.0) - 459.300).abs() < 1e-3);
+/// ```
 pub fn exitance_w_m2(temperature_k: f64) -> f64 {
     STEFAN_BOLTZMANN_W_M2_K4 * temperature_k.powi(4)
 }
 
 /// Wavelength of the largest spectral radiance per nm (Wien), nm.
+///
+/// ```
+/// use etendue::spectrum::black_body::peak_wavelength_nm;
+///
+/// assert!((peak_wavelength_nm(5772.0) - 502.04).abs() < 0.01);
+/// ```
 pub fn peak_wavelength_nm(temperature_k: f64) -> f64 {
     // The positive root of x = 5(1 − e⁻ˣ).
     const PEAK_X: f64 = 4.965_114_231_744_276;

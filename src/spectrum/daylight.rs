@@ -19,8 +19,8 @@ use super::{Density, Factor, Outside, SpectrumError, Table, library};
 /// Correlated colour temperatures for which the series is defined, K.
 pub const RANGE_K: (f64, f64) = (4000.0, 25000.0);
 
-/// Factor between the nominal temperature of D50, D55, D65 and D75 and the temperature to be inserted: c₂ of today's scale over c₂ of 1931
-/// to 1967, `1.4388/1.4380`.
+/// Factor between the nominal temperature of D50, D55, D65 and D75 and the temperature to be inserted: c₂ of the temperature scales since
+/// 1968 over c₂ of the scale of 1948, `1.4388/1.4380`.
 pub const NOMINAL_TO_CCT: f64 = 1.4388 / 1.4380;
 
 /// Chromaticity (x_D, y_D) of the phase of daylight at a correlated colour temperature in K. Errors outside [`RANGE_K`].

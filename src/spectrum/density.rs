@@ -240,9 +240,13 @@ impl Density {
         Ok(Self { scale: self.scale, ..Self::assemble(Continuum::Sum(Vec::new()), lines) })
     }
 
-    /// Spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹. Errors if the temperature in K is not positive and finite.
+    /// Spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹. Errors if the temperature in K lies outside [`black_body::TEMPERATURES_K`].
     pub fn black_body(temperature_k: f64) -> Result<Self, SpectrumError> {
-        let temperature_k = positive("the temperature of the black body in K", temperature_k)?;
+        let (coldest, hottest) = black_body::TEMPERATURES_K;
+        if !(coldest..=hottest).contains(&temperature_k) {
+            let name = "the temperature of the black body in K";
+            return Err(SpectrumError::Parameter { name, value: temperature_k, allowed: "from 1e-12 to 1e12" });
+        }
         Ok(Self::assemble(Continuum::BlackBody { temperature_k }, Vec::new()))
     }
 

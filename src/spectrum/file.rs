@@ -12,7 +12,7 @@
 //! density is zero outside the rows of its file; a factor is what its reader says.
 
 use super::table_text::{TextProblem, TextRules, parse_bytes};
-use super::table_units::{Per, WavelengthUnit};
+use super::table_units::{Per, WavelengthUnit, per_nm, unit_of_column};
 use super::{Density, Outside, SpectrumError, Table, spdx};
 
 /// What the file is to be.
@@ -46,7 +46,8 @@ pub struct CurveFile {
     pub name: Option<String>,
     /// What the curve is: `# quantity:`, or the quantity of an SPDX file.
     pub quantity: Option<String>,
-    /// Unit of the values as the file states it; if they were converted, a remark says so.
+    /// Unit of the values, stated by the file in `# unit:` or in the name of their column; per nm if they were converted to that, and a
+    /// remark says so.
     pub unit: Option<String>,
     /// Header lines as (key, value), in their order; keys in lower case.
     pub header: Vec<(String, String)>,
@@ -98,6 +99,12 @@ fn is_uncertainty(name: &str) -> bool {
     matches!(name.trim().to_lowercase().replace([' ', '-'], "_").as_str(), "u" | "uncertainty" | "standard_uncertainty")
 }
 
+/// Whether a unit is one of photons: their number, or mol of them. As a distribution of power such numbers have the wrong shape.
+fn counts_photons(unit: &str) -> bool {
+    const PHOTONS: [&str; 9] = ["photon", "photons", "quanta", "mol", "mmol", "µmol", "μmol", "umol", "nmol"];
+    unit.split(|c: char| !c.is_alphabetic()).any(|word| PHOTONS.contains(&word.to_lowercase().as_str()))
+}
+
 fn read_csv(bytes: &[u8], meaning: Meaning, rules: &FileRules) -> Result<CurveFile, Vec<TextProblem>> {
     let FileRules { wavelength_unit, per, decimal_comma } = *rules;
     let mut text = parse_bytes(bytes, &TextRules { wavelength_unit, per, decimal_comma, ..TextRules::default() })?;
@@ -133,6 +140,17 @@ fn read_csv(bytes: &[u8], meaning: Meaning, rules: &FileRules) -> Result<CurveFi
     }
     let value = |key: &str| text.header_value(key).map(str::to_owned);
     let (name, quantity, unit) = (value("name"), value("quantity"), value("unit"));
+    let column = text.column_names.first().filter(|_| meaning == Meaning::Density);
+    let of_column = column.filter(|_| unit.is_none()).and_then(|name| Some((name.to_owned(), unit_of_column(name)?)));
+    let (quantity, unit) = match of_column {
+        Some((name, unit)) => (quantity.or(Some(name)), Some(unit)),
+        None => (quantity, unit),
+    };
+    if let Some(unit) = unit.as_deref().filter(|unit| meaning == Meaning::Density && counts_photons(unit)) {
+        let help = "a spectrum is in W here; multiply every row by the energy of its photons, hc/λ, and correct the unit";
+        return Err(vec![whole(format!("the unit `{unit}` counts photons"), help)]);
+    }
+    let unit = unit.map(|unit| if meaning == Meaning::Density && text.per.is_some() { per_nm(&unit) } else { unit });
     let wavelengths_nm = text.wavelengths_nm;
     finish(
         CurveFile {

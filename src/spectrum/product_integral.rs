@@ -69,18 +69,6 @@ fn compensated_sum(values: impl Iterator<Item = f64>) -> f64 {
     sum.value()
 }
 
-/// A segment that may have to be halved.
-struct Open {
-    segment: Segment,
-    /// Estimate of the integral over it.
-    whole: f64,
-    /// By how much the estimates of the segment that it is a half of disagreed.
-    apart: f64,
-    halvings: usize,
-    /// Halvings in a row that hardly lowered it.
-    slow: usize,
-}
-
 impl Term<'_> {
     /// The integral without the scale.
     fn integral(&self) -> f64 {
@@ -113,36 +101,20 @@ impl Term<'_> {
         const AGREEMENT: f64 = 1e-11;
         // What is this small beside the whole cannot be seen in it.
         const INVISIBLE: f64 = 1e-17;
-        // Halving takes a smooth integrand's disagreement down by 2^16. Where it takes it down by less than 2^3, over and over, what is
-        // left is the rounding of the wavelengths, which a line far narrower than its wavelength shows; no halving lowers that.
-        const SLOW: f64 = 0.125;
-        const MAX_SLOW_HALVINGS: usize = 5;
         let first: Vec<(f64, f64)> = segments.iter().map(|segment| self.estimate(segment, NODES)).collect();
         let size: f64 = first.iter().map(|estimate| estimate.1).sum();
-        let mut open: Vec<Open> = segments
-            .into_iter()
-            .zip(first)
-            .map(|(segment, whole)| Open { segment, whole: whole.0, apart: f64::INFINITY, halvings: 0, slow: 0 })
-            .collect();
+        let mut open: Vec<(Segment, f64, usize)> = segments.into_iter().zip(first).map(|(segment, whole)| (segment, whole.0, 0)).collect();
         let mut closed = Vec::with_capacity(open.len());
-        while let Some(Open { segment, whole, apart, halvings, slow }) = open.pop() {
+        while let Some((segment, whole, halvings)) = open.pop() {
             let middle = 0.5 * (segment.from + segment.to);
             let halves = [Segment { to: middle, ..segment }, Segment { from: middle, ..segment }];
             let estimates = halves.map(|half| self.estimate(&half, NODES));
             let sum = estimates[0].0 + estimates[1].0;
-            let visible = (AGREEMENT * (estimates[0].1 + estimates[1].1)).max(INVISIBLE * size);
-            let now_apart = (sum - whole).abs();
-            let slow = if now_apart > SLOW * apart { slow + 1 } else { 0 };
-            if now_apart <= visible || halvings == MAX_HALVINGS || slow == MAX_SLOW_HALVINGS || !sum.is_finite() {
+            let visible = ((AGREEMENT + self.noise(&segment)) * (estimates[0].1 + estimates[1].1)).max(INVISIBLE * size);
+            if (sum - whole).abs() <= visible || halvings == MAX_HALVINGS || !sum.is_finite() {
                 closed.push(sum);
             } else {
-                open.extend((0..2).map(|i| Open {
-                    segment: halves[i],
-                    whole: estimates[i].0,
-                    apart: now_apart,
-                    halvings: halvings + 1,
-                    slow,
-                }));
+                open.extend((0..2).map(|i| (halves[i], estimates[i].0, halvings + 1)));
             }
         }
         compensated_sum(closed.into_iter())

@@ -25,7 +25,9 @@ impl ScaledNumber {
 
     /// `exp(ln)`, also where `f64` cannot hold it. `ln` may be -infinity.
     pub(super) fn exp(ln: f64) -> Self {
-        if !ln.is_finite() {
+        // Beyond this the remainder below has no digits left, and no product of this program brings the number back.
+        const FURTHEST: f64 = 1e15;
+        if ln.is_nan() || ln.abs() > FURTHEST {
             return Self::new(ln.exp());
         }
         let exponent = (ln / std::f64::consts::LN_2).round();

@@ -1,12 +1,15 @@
 //! Reads a curve file line by line; see `table_text` for what it may hold.
 
 use super::decimal_comma::{Commas, decide};
-use super::table_row::{Field, Separator, split};
+use super::table_row::{Field, Separator, are_names, split};
 use super::table_text::{TableText, TextProblem, TextRules};
-use super::table_units::{Per, WavelengthUnit, shifted};
+use super::table_units::{Per, WavelengthUnit, other_abscissa, shifted};
 
 /// More problems than this are counted, not listed.
 const MAX_PROBLEMS: usize = 100;
+
+/// Longest wavelength, nm: a kilometre.
+const LONGEST_NM: f64 = 1e12;
 
 /// A statement about the file: what, and where it was made, in words and by line.
 type Statement<T> = (T, String, usize);
@@ -66,9 +69,13 @@ impl<'t> Reader<'t> {
 
     /// The table, or every problem.
     pub(super) fn read(mut self) -> Result<TableText, Vec<TextProblem>> {
-        if let Some(rest) = self.text.strip_prefix('\u{feff}') {
+        if self.text.starts_with('\u{feff}') {
             self.remark("a byte order mark at the beginning is left out");
-            self.text = rest;
+            self.text = self.text.trim_start_matches('\u{feff}');
+        }
+        if self.text.contains('\r') && !self.text.contains('\n') {
+            self.problem(1, "the lines end in CR alone, as on a Macintosh before 2001", "save the file with line ends LF or CR LF");
+            return Err(self.problems);
         }
         if self.text.contains("\r\n") {
             self.remark("the lines end as on Windows (CR LF)");
@@ -128,7 +135,7 @@ impl<'t> Reader<'t> {
         }
         let separator = *self.separator.get_or_insert_with(|| Separator::of(trimmed));
         let fields = split(line, separator);
-        if self.width.is_none() && fields.first().is_some_and(|field| field.is_a_name()) {
+        if self.width.is_none() && are_names(&fields) {
             self.read_column_names(&fields);
             return true;
         }
@@ -179,6 +186,10 @@ impl<'t> Reader<'t> {
 
     fn read_column_names(&mut self, fields: &[Field<'_>]) {
         self.set_width(fields.len());
+        if let Some((field, other)) = fields.first().and_then(|field| Some((field, other_abscissa(field.text)?))) {
+            let help = format!("a curve is over wavelength, in {}; convert the rows, values per {other} too", WavelengthUnit::ALLOWED);
+            self.problem(field.column, format!("the first column is `{}`, not a wavelength", field.text), help);
+        }
         if let Some((name, unit)) = fields.first().and_then(|field| Some((field.text, WavelengthUnit::of_column(field.text)?))) {
             self.state_unit(unit, format!("the column `{name}`"));
         }
@@ -275,6 +286,9 @@ impl<'t> Reader<'t> {
     fn check_wavelength(&mut self, wavelength_nm: f64, field: &Field<'_>) {
         if wavelength_nm <= 0.0 {
             self.problem(field.column, format!("the wavelength {} nm is not above 0", field.text), "wavelengths are in nm");
+        }
+        if wavelength_nm > LONGEST_NM {
+            self.problem(field.column, format!("the wavelength is {wavelength_nm:e} nm"), format!("allowed: up to {LONGEST_NM:e} nm"));
         }
         if let Some((previous_nm, previous_line)) = self.previous {
             if wavelength_nm == previous_nm {

@@ -83,6 +83,15 @@ impl Field<'_> {
     }
 }
 
+/// Whether a row names the columns. A first field with digits before nothing but numbers is a row with a mistake in it, as `4OO,1.5`,
+/// and not to be dropped as a name.
+pub(super) fn are_names(fields: &[Field<'_>]) -> bool {
+    let Some((first, others)) = fields.split_first() else { return false };
+    let before_numbers =
+        !others.is_empty() && others.iter().all(|field| field.number().is_ok() || !field.text.contains(char::is_alphabetic));
+    first.is_a_name() && !(before_numbers && first.text.contains(char::is_numeric))
+}
+
 /// The fields of a row. A separator at the very end of the row opens no further field.
 pub(super) fn split(row: &str, separator: Separator) -> Vec<Field<'_>> {
     let mut fields = Vec::new();

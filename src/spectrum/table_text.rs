@@ -85,6 +85,10 @@ pub fn parse_bytes(bytes: &[u8], rules: &TextRules) -> Result<TableText, Vec<Tex
 
 /// Bytes as text, or the place of the first that is none.
 pub(super) fn utf8(bytes: &[u8]) -> Result<&str, TextProblem> {
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) || bytes.iter().take(4).any(|byte| *byte == 0) {
+        let message = "the file is text in UTF-16, or no text at all".to_owned();
+        return Err(TextProblem { line: 1, column: 1, message, help: "save the file as plain text in UTF-8 (CSV)".to_owned() });
+    }
     std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
         let line_start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |position| position + 1);

@@ -79,6 +79,9 @@ impl Per {
 
     /// The interval that a header line or an option states.
     pub fn parse(text: &str) -> Option<Self> {
+        if text.trim_start().starts_with('-') {
+            return None;
+        }
         let parts: Vec<String> = words(text).into_iter().filter(|word| !matches!(word.as_str(), "band" | "bands" | "per" | "of")).collect();
         match parts.as_slice() {
             [unit] if !text.to_lowercase().contains("band") => WavelengthUnit::parse(unit).map(Self::Unit),
@@ -124,6 +127,71 @@ impl Per {
         }
         WavelengthUnit::parse(&words[at]).map(Self::Unit)
     }
+}
+
+/// The unit of values once they are per nm, from the unit that a file states for them: `W/(m2 um)` and `W/5nm` become `W/(m2 nm)` and
+/// `W/nm`; a unit without an interval is divided by nm, except a relative one.
+pub(super) fn per_nm(unit: &str) -> String {
+    let Some(per) = Per::of_unit(unit) else {
+        let relative = unit.to_lowercase().contains("relative") || matches!(unit.trim(), "" | "1");
+        return if relative { unit.to_owned() } else { format!("{unit}/nm") };
+    };
+    let mut found = None;
+    let mut start = None;
+    for (at, character) in unit.char_indices().chain([(unit.len(), ' ')]) {
+        match (character.is_alphabetic(), start) {
+            (true, None) => start = Some(at),
+            (false, Some(from)) => {
+                if WavelengthUnit::parse(&unit[from..at]).is_some_and(|unit| unit != WavelengthUnit::Metre) {
+                    found = Some((from, at));
+                }
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    let Some((from, to)) = found else { return unit.to_owned() };
+    let before = match per {
+        Per::Unit(_) => &unit[..from],
+        Per::Band { .. } => unit[..from].trim_end_matches([' ', '_', '-']).trim_end_matches(|c: char| c.is_ascii_digit() || c == '.'),
+    };
+    format!("{before}nm{}", &unit[to..])
+}
+
+/// The unit of a density that the name of a column ends in: in brackets as in `irradiance (W/(m2 nm))`, as the whole name (`W/m2/nm`), or
+/// joined by underscores as in `irradiance_w_m2_nm`. `None` for a name that states no interval.
+pub(super) fn unit_of_column(name: &str) -> Option<String> {
+    let name = name.trim();
+    let unit = if let Some(from) = name.find([' ', '[', '(']).filter(|_| name.ends_with([')', ']']) && !name.starts_with("W/")) {
+        name[from..].trim().strip_prefix(['(', '[']).map_or(&name[from..], |inner| &inner[..inner.len() - 1]).trim().to_owned()
+    } else if let Some((_, below)) = format!("_{}", name.to_lowercase()).split_once("_w_") {
+        format!("W/({})", below.replace('_', " "))
+    } else {
+        name.to_owned()
+    };
+    Per::of_unit(&unit).map(|_| unit)
+}
+
+/// What the name of a first column says that is not a wavelength in a unit that is known: `frequency_THz`, `wavenumber_cm-1`, `energy (eV)`.
+pub(super) fn other_abscissa(name: &str) -> Option<String> {
+    const OTHERS: [&str; 15] = [
+        "frequency",
+        "frequencies",
+        "wavenumber",
+        "wavenumbers",
+        "energy",
+        "hz",
+        "ghz",
+        "thz",
+        "phz",
+        "ev",
+        "mev",
+        "kev",
+        "cm",
+        "mm",
+        "pm",
+    ];
+    words(name).into_iter().find(|word| OTHERS.contains(&word.as_str()))
 }
 
 /// Words and numbers of a text, in lower case; a unit that follows a number without a blank is a word of its own.
@@ -211,6 +279,38 @@ mod tests {
             ("furlong", None),
         ] {
             assert_eq!(Per::parse(text), per, "{text}");
+        }
+    }
+
+    #[test]
+    fn units_per_another_interval_become_units_per_nm() {
+        for (unit, converted) in [
+            ("W/(m2 um)", "W/(m2 nm)"),
+            ("W m-2 µm-1", "W m-2 nm-1"),
+            ("W/(m² nm)", "W/(m² nm)"),
+            ("W/5nm", "W/nm"),
+            ("W per 2.5 nm", "W per nm"),
+            ("W/m2", "W/m2/nm"),
+            ("relative", "relative"),
+            ("1", "1"),
+        ] {
+            assert_eq!(per_nm(unit), converted, "{unit}");
+        }
+    }
+
+    #[test]
+    fn units_of_densities_are_found_in_names_of_columns() {
+        for (name, unit) in [
+            ("irradiance (W/(m² nm))", Some("W/(m² nm)")),
+            ("irradiance [W m-2 um-1]", Some("W m-2 um-1")),
+            ("W/m2/nm", Some("W/m2/nm")),
+            ("W/(m2 nm)", Some("W/(m2 nm)")),
+            ("irradiance_w_m2_nm", Some("W/(m2 nm)")),
+            ("w_m2_sr_um", Some("W/(m2 sr um)")),
+            ("value", None),
+            ("responsivity_a_w", None),
+        ] {
+            assert_eq!(unit_of_column(name).as_deref(), unit, "{name}");
         }
     }
 

@@ -159,6 +159,14 @@ impl Term<'_> {
         self.factors.iter().fold(kernel * jacobian, |product, factor| product * factor.at(nm))
     }
 
+    /// Relative error of the integrand that comes from rounding alone. Far in the Wien tail a rounded wavelength changes `exp(-x)`,
+    /// `x = c₂/(λT)`, by `x` times the rounding: no two estimates agree better than that.
+    pub(super) fn noise(&self, segment: &Segment) -> f64 {
+        let Kernel::BlackBody { temperature_k, .. } = self.kernel else { return 0.0 };
+        let shortest_nm = segment.coordinate.wavelength_nm(segment.from).min(segment.coordinate.wavelength_nm(segment.to));
+        16.0 * f64::EPSILON * (black_body::SECOND_RADIATION_CONSTANT_NM_K / shortest_nm / temperature_k)
+    }
+
     /// Degree of the integrand between breakpoints, if it is a polynomial.
     pub(super) fn degree(&self) -> Option<usize> {
         let kernel = match self.kernel {

@@ -1,7 +1,7 @@
 //! Files on disk.
 
 use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::io::{Error, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 
 use etendue::scene::{FileProblem, Files, Scene, read_scene};
@@ -135,5 +135,28 @@ fn through_scenes_folder(path: &str) -> String {
     match folders.iter().rposition(|part| part == "scenes") {
         Some(at) => format!("{}{}/{path}", "../".repeat(folders.len() - at), folders[at..].join("/")),
         None => path.to_owned(),
+    }
+}
+
+/// Puts the bytes into a file: beside the target first and then moved, so that there is never half a file. A link is followed; what is there
+/// and is no file (a pipe, a device such as `/dev/stdout`) is written to and not replaced.
+pub(crate) fn save(target: &Path, written: &[u8]) -> Result<(), Error> {
+    let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
+    if fs::metadata(&target).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+        return fs::write(&target, written);
+    }
+    let mut partial = target.as_os_str().to_owned();
+    partial.push(".partial");
+    fs::write(&partial, written).and_then(|()| fs::rename(&partial, &target)).inspect_err(|_| {
+        let _ = fs::remove_file(&partial);
+    })
+}
+
+/// A full disk is nobody's mistake; any other place that cannot be written to is for whoever named it to change.
+pub(crate) fn unwritable(path: &Path, e: &Error, help: &str) -> Failure {
+    let message = format!("error: cannot write `{}`: {e}", path.display());
+    match e.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge | ErrorKind::WriteZero => Failure::Run(message),
+        _ => Failure::Input(format!("{message}\n  = help: {help}")),
     }
 }

@@ -144,13 +144,8 @@ fn prepared(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, Fail
     }
 }
 
-/// Writes beside the target first and then moves: there is never half a file.
 fn save(target: &Path, written: &str) -> Result<(), Failure> {
-    let partial = PathBuf::from(with_appended(target, "partial"));
-    std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target)).map_err(|e| {
-        let _ = std::fs::remove_file(&partial);
-        unwritable(target, &e)
-    })?;
+    disk::save(target, written.as_bytes()).map_err(|e| unwritable(target, &e))?;
     print(&format!("{}\n", target.display()))
 }
 
@@ -162,13 +157,8 @@ fn with_appended(name: impl Into<OsString>, extension: &str) -> OsString {
     name
 }
 
-/// A full disk is nobody's mistake; any other place that cannot be written to is for whoever named it to change.
 fn unwritable(path: &Path, e: &Error) -> Failure {
-    let message = format!("error: cannot write `{}`: {e}", path.display());
-    match e.kind() {
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge | ErrorKind::WriteZero => Failure::Run(message),
-        _ => Failure::Input(format!("{message}\n  = help: --out takes a folder that can be written")),
-    }
+    disk::unwritable(path, e, "--out takes a folder that can be written")
 }
 
 /// A bar on a terminal, nothing elsewhere.

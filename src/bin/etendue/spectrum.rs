@@ -1,6 +1,6 @@
 //! `etendue spectrum SPECTRUM`: every quantity of one spectrum.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ValueEnum;
 use etendue::observer::sheet::{RowUncertainty, Scale, SheetOptions, SpectralQuantity, SpectrumSheet};
@@ -107,10 +107,10 @@ fn above_zero(given: &str) -> Result<f64, String> {
 fn grid_nm(given: &str) -> Result<[f64; 3], String> {
     let numbers: Vec<f64> = given.split(':').map_while(|part| part.trim().parse().ok()).collect();
     match numbers[..] {
-        [from, to, step] if given.split(':').count() == 3 && from > 0.0 && to > from && step > 0.0 && to.is_finite() => {
+        [from, to, step] if given.split(':').count() == 3 && from >= 1.0 && to >= from + step && step > 0.0 && to <= 1e9 => {
             Ok([from, to, step])
         }
-        _ => Err("two wavelengths and a step in nm, such as 380:780:5".to_owned()),
+        _ => Err("two wavelengths from 1 to 1e9 nm and a step from the one towards the other, such as 380:780:5".to_owned()),
     }
 }
 
@@ -132,7 +132,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         (given.density, table) = (found.density, Some(found.table));
     }
-    let (wanted, understood) = scale(arguments, &given, entry);
+    let (wanted, understood) = scale(arguments, &given, entry)?;
     remarks.extend(understood);
     if let Some(rewritten) = arguments.rewritten {
         let help = "the spectrum has no rows of its own; give a grid for them, such as --resample 380:780:5";
@@ -201,49 +201,64 @@ fn rewrite(format: Rewritten, table: &Table, given: &GivenSpectrum, wanted: Scal
 fn put(arguments: &Arguments, written: &str) -> Result<(), Failure> {
     match &arguments.out {
         None => print(written),
-        Some(target) => save(target, written),
+        Some(target) => {
+            let help = "--out takes a file in a folder that can be written";
+            disk::save(target, written.as_bytes()).map_err(|e| disk::unwritable(target, &e, help))
+        }
     }
 }
 
 /// How the numbers are to be read, and what is to be said about it.
-fn scale(arguments: &Arguments, given: &GivenSpectrum, entry: Option<&library::Entry>) -> (Scale, Option<String>) {
-    match (arguments.illuminance, arguments.irradiance, arguments.quantity) {
-        (Some(lx), _, _) => return (Scale::Illuminance(lx), None),
-        (_, Some(w_m2), _) => return (Scale::Irradiance(w_m2), None),
-        (_, _, Some(quantity)) => return (quantity.scale(), None),
-        _ => {}
-    }
+fn scale(arguments: &Arguments, given: &GivenSpectrum, entry: Option<&library::Entry>) -> Result<(Scale, Option<String>), Failure> {
     let (unit, words) = match (&given.file, entry) {
         (Some(file), _) => (file.unit.as_deref(), file.quantity.as_deref()),
         (None, Some(entry)) if entry.is_absolute() => (Some(entry.unit.as_str()), Some(entry.quantity.as_str())),
         _ => (None, None),
     };
-    let Some(unit) = unit.filter(|unit| !unit.to_lowercase().contains("relative") && !matches!(unit.trim(), "" | "1")) else {
-        return (Scale::Relative, None);
-    };
-    match SpectralQuantity::of_unit(unit) {
-        Some(SpectralQuantity::Irradiance) if words.is_some_and(|words| words.to_lowercase().contains("exitance")) => {
-            (Scale::Absolute(SpectralQuantity::Exitance), None)
+    let unit = unit.filter(|unit| !unit.to_lowercase().contains("relative") && !matches!(unit.trim(), "" | "1"));
+    let stated = unit.and_then(SpectralQuantity::of_unit);
+    match (arguments.illuminance, arguments.irradiance, arguments.quantity) {
+        (Some(lx), _, _) => return Ok((Scale::Illuminance(lx), None)),
+        (_, Some(w_m2), _) => return Ok((Scale::Irradiance(w_m2), None)),
+        (_, _, Some(quantity)) => {
+            let shared = |a: SpectralQuantity, b: Scale| Scale::Absolute(a) == b || (is_per_area(Scale::Absolute(a)) && is_per_area(b));
+            let other = unit.filter(|_| !stated.is_some_and(|stated| shared(stated, quantity.scale())));
+            let remark =
+                other.map(|unit| format!("the file says that its unit is `{unit}`; --quantity overrules it, no number is converted"));
+            return Ok((quantity.scale(), remark));
         }
-        Some(quantity) => (Scale::Absolute(quantity), None),
-        None => {
-            let remark = format!(
-                "the unit `{unit}` is none of W/nm, W/(m² nm), W/(m² sr nm), W/(sr nm), so the spectrum is taken as relative; --quantity says otherwise"
-            );
-            (Scale::Relative, Some(remark))
-        }
+        _ => {}
     }
+    let Some(unit) = unit else { return Ok((Scale::Relative, None)) };
+    let Some(quantity) = stated else {
+        let remark = format!(
+            "the unit `{unit}` is none of W/nm, W/(m² nm), W/(m² sr nm), W/(sr nm), so the spectrum is taken as relative; convert the numbers to one of these, or say --quantity"
+        );
+        return Ok((Scale::Relative, Some(remark)));
+    };
+    let named = words.and_then(named_quantity).unwrap_or(quantity);
+    if named != quantity && !(is_per_area(Scale::Absolute(named)) && is_per_area(Scale::Absolute(quantity))) {
+        let problem =
+            format!("the unit `{unit}` is that of a spectral {}, but the quantity is `{}`", quantity.word(), words.unwrap_or_default());
+        let help = "correct one of the two lines `# unit:` and `# quantity:`, or say --quantity";
+        return Err(Failure::Input(format!("error: {}: {problem}\n  = help: {help}", given.name)));
+    }
+    Ok((Scale::Absolute(named), None))
 }
 
-/// Writes beside the target first and then moves: there is never half a file.
-fn save(target: &Path, written: &str) -> Result<(), Failure> {
-    let mut partial = target.as_os_str().to_owned();
-    partial.push(".partial");
-    std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target)).map_err(|e| {
-        let _ = std::fs::remove_file(&partial);
-        Failure::Input(format!(
-            "error: cannot write `{}`: {e}\n  = help: --out takes a file in a folder that can be written",
-            target.display()
-        ))
-    })
+/// Irradiance and exitance share their unit.
+fn is_per_area(scale: Scale) -> bool {
+    matches!(scale, Scale::Absolute(SpectralQuantity::Irradiance | SpectralQuantity::Exitance))
+}
+
+/// Words of a text, in lower case.
+fn words_of(text: &str) -> Vec<String> {
+    text.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).map(str::to_lowercase).collect()
+}
+
+/// The one quantity that a text such as `spectral radiance` names; `None` if it names none or several.
+fn named_quantity(text: &str) -> Option<SpectralQuantity> {
+    let words = words_of(text);
+    let mut named = SpectralQuantity::ALL.into_iter().filter(|quantity| words.iter().any(|word| word == quantity.word()));
+    named.next().filter(|_| named.next().is_none())
 }

@@ -12,7 +12,7 @@
 //!
 //! Between two rows of the observer's tables the chromaticities of single wavelengths lie on a straight line, so the crossing is solved for
 //! exactly. At the red end, where the locus folds back on itself, the crossing nearest to its middle is taken. Definitions: CIE S 017,
-//! 17-23-055 to 17-23-065; CIE 015:2018, section 9.
+//! 17-23-062 to 17-23-066; CIE 015:2018, section 9.
 
 use super::{Chromaticity, LOCUS_RANGE_NM, Tristimulus};
 use crate::spectrum::Factor;

@@ -26,17 +26,22 @@ pub(super) fn remark((from_nm, to_nm): (f64, f64), functionals: &Functionals) ->
     let (low, high) = PHOTOSYNTHETIC_NM;
     let missing = (from_nm.min(high) - low).max(0.0) + (high - to_nm.max(low)).max(0.0);
     shares.push(("the photosynthetic range".into(), missing / (high - low)));
-    let told: Vec<String> = shares
-        .iter()
-        .filter(|(_, share)| *share > WORTH_A_WORD)
-        .map(|(name, share)| format!("{} % of {name}", format_significant(100.0 * share, 2)))
-        .collect();
+    let told: Vec<String> =
+        shares.iter().filter(|(_, share)| *share > WORTH_A_WORD).map(|(name, share)| format!("{} of {name}", percent(*share))).collect();
     (!told.is_empty()).then(|| {
-        format!(
-            "the spectrum is given from {from_nm} nm to {to_nm} nm and counts as zero beyond; there lie of the areas of {}",
-            told.join(", ")
-        )
+        format!("the spectrum is given from {from_nm} nm to {to_nm} nm and counts as zero beyond, where there is {}", told.join(", "))
     })
+}
+
+/// A share in per cent, two digits; "nearly all" where two digits would be 100.
+fn percent(share: f64) -> String {
+    if share == 1.0 {
+        "all".to_owned()
+    } else if share > 0.995 {
+        "nearly all".to_owned()
+    } else {
+        format!("{} %", format_significant(100.0 * share, 2))
+    }
 }
 
 /// Share of the area under a function that lies outside `from_nm`..`to_nm`.

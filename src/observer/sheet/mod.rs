@@ -40,7 +40,7 @@ pub use words::SpectralQuantity;
 use super::colour::{Chromaticity, Tristimulus};
 use super::{Matching, ObserverError};
 use crate::quantity::constants::K_M_LM_W;
-use crate::spectrum::{Density, library};
+use crate::spectrum::{Density, Factor, library};
 use functional::{Functional, Functionals};
 
 /// How the numbers of the density are to be read.
@@ -208,8 +208,15 @@ impl SpectrumSheet {
             let (what, why) = ("the spectrum", "there is nothing to be said of it");
             return Err(ObserverError::Zero { what: what.into(), why: why.into() });
         }
+        if !get(Functional::Radiant).is_finite() {
+            let what = "the radiant total of the spectrum";
+            return Err(ObserverError::OutOfRange { what, value: get(Functional::Radiant), allowed: "up to 1.8e308".into() });
+        }
         let scaling = Scaling::new(options.scale, &get)?;
         let mut remarks: Vec<String> = scaling.remark.iter().cloned().collect();
+        if get(Functional::PHOTOPIC) == 0.0 && functionals.weight(Functional::PHOTOPIC).is_some_and(|v| !no_common(density, v)) {
+            remarks.push("a number that is 0 here although the spectrum reaches that far is below 1e-308".into());
+        }
         let white = white(&options.white)?;
         let mut definitions = totals::definitions(density, &scaling, options)?;
         definitions.extend(colour_rows::definitions(white, &options.white));
@@ -250,6 +257,11 @@ impl SpectrumSheet {
             _ => None,
         }
     }
+}
+
+/// Whether the spectrum has nothing where the function is not zero.
+fn no_common(density: &Density, weight: &Factor) -> bool {
+    density.support().intersection(&weight.support()).with_width().is_empty()
 }
 
 /// What cannot be held in an `f64` is said, not printed.

@@ -7,7 +7,7 @@ use crate::spectrum::Density;
 use crate::spectrum::library::RELATIVE;
 
 use super::PlotError;
-use super::chart::{Axis, Chart, Curve, Impulse, Ink, Under};
+use super::chart::{Axis, Chart, Curve, Dash, Impulse, Ink, Under};
 use super::sample::{of_density, strip, wavelength_ink};
 
 /// A spectrum with its name.
@@ -48,6 +48,11 @@ pub struct Choice {
 /// Most lines that bear their wavelength.
 const MOST_NAMED_LINES: usize = 12;
 
+/// Colours of the palette; with more spectra they come again, dashed and then dotted.
+const COLOURS: usize = 8;
+/// How the spectra of each round of colours are broken.
+const DASHES: [Dash; 3] = [Dash::Solid, Dash::Dashed, Dash::Dotted];
+
 /// Spectra over wavelength. Errors if there is none, if one is zero in the range or where it is to be one, and if a structure is too
 /// narrow to be drawn.
 pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
@@ -55,6 +60,10 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
     let range = *from_nm..=*to_nm;
     if items.is_empty() {
         return Err(PlotError::Nothing { what: "no spectrum was asked for".to_owned() });
+    }
+    if items.len() > COLOURS * DASHES.len() {
+        let most = COLOURS * DASHES.len();
+        return Err(PlotError::Request { what: format!("{} spectra; at most {most} can be told apart in one plot", items.len()) });
     }
     let mut chart_curves = Vec::new();
     let mut impulses = Vec::new();
@@ -79,21 +88,21 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
             return Err(PlotError::Request { what });
         }
         let points: Vec<[f64; 2]> = points.into_iter().map(|[nm, value]| [nm, value / one]).collect();
-        let only_lines = points.is_empty();
-        if !only_lines {
+        if peak > 0.0 {
             let ink = if items.len() == 1 { Ink::Text } else { Ink::Palette(index) };
             let under = if items.len() == 1 { Under::Spectral } else { Under::Nothing };
             // The title names the only one.
             let label = if items.len() == 1 { "" } else { name };
-            chart_curves.push(Curve { width: if items.len() == 1 { 0.7 } else { 1.0 }, ..Curve::new(label, points, ink).filled(under) });
+            let curve = Curve::new(label, points, ink).filled(under).dashed(DASHES[index / COLOURS]);
+            chart_curves.push(Curve { width: if items.len() == 1 { 0.7 } else { 1.0 }, ..curve });
         }
-        let named = items.len() == 1 && lines.len() <= MOST_NAMED_LINES;
-        // Lines without a continuum that bears the name bear it on the strongest of them.
-        let mut name_left = only_lines && items.len() > 1;
-        for line in lines {
-            let label = if named {
+        let alone = items.len() == 1;
+        // The curve of a spectrum bears its name; of lines alone, the strongest does.
+        let mut bearer = (!alone && peak == 0.0).then_some(strongest);
+        for line in &lines {
+            let label = if alone && lines.len() <= MOST_NAMED_LINES {
                 format!("{} nm", rounded(line.wavelength_nm))
-            } else if line.power == strongest && std::mem::take(&mut name_left) {
+            } else if bearer.take_if(|power| *power == line.power).is_some() {
                 name.clone()
             } else {
                 String::new()
@@ -137,7 +146,8 @@ pub fn chart(choice: &Choice) -> Result<Chart, PlotError> {
         (false, true) => (Axis::linear("Spectral distribution", &unit, 0.0, 1.1 * highest), None),
         (false, false) => (Axis::linear("Continuum", &unit, 0.0, 1.14 * highest), Some(power(strongest))),
     };
-    let subtitle = capitalised(&subtitle);
+    // Names stay as they are.
+    let subtitle = if names.len() == 1 { capitalised(&subtitle) } else { subtitle };
     Ok(Chart { curves: chart_curves, impulses, impulse_axis, strip: strip(*from_nm, *to_nm), ..Chart::new(&title, &subtitle, x, y) })
 }
 
@@ -155,4 +165,22 @@ fn rounded(nm: f64) -> String {
 fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spectrum::{Line, library};
+
+    #[test]
+    fn every_one_of_several_spectra_is_named_once() {
+        let lines = [(435.83, 1.0), (546.07, 3.0)].map(|(wavelength_nm, power)| Line { wavelength_nm, power });
+        let items = [("D65", library::density("D65").unwrap()), ("mercury", Density::lines_only(&lines).unwrap())];
+        let items = items.map(|(name, density)| Item { name: name.to_owned(), density }).to_vec();
+        let choice = Choice { items, scaling: Scaling::Peak, unit: String::new(), from_nm: 380.0, to_nm: 780.0 };
+        let chart = chart(&choice).unwrap();
+        let curves: Vec<&str> = chart.curves.iter().map(|curve| curve.label.as_str()).collect();
+        let impulses: Vec<(f64, &str)> = chart.impulses.iter().map(|impulse| (impulse.x, impulse.label.as_str())).collect();
+        assert_eq!((curves, impulses), (vec!["D65"], vec![(435.83, ""), (546.07, "mercury")]));
+    }
 }

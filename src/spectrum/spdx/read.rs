@@ -148,6 +148,11 @@ impl<'d> Reader<'d> {
             ["SpectralQuantity", "ReflectionGeometry", "TransmissionGeometry", "BandwidthFWHM", "BandwidthCorrected", "SpectralData"];
         self.unknown(node, &known);
         let child = |name: &'static str| node.children().find(|child| child.tag_name().name() == name);
+        for name in known.into_iter().filter(|name| *name != "SpectralData") {
+            if let Some(second) = node.children().filter(|child| child.tag_name().name() == name).nth(1) {
+                self.problem(second, format!("there is a second `{name}`"), "keep one of them");
+            }
+        }
         let quantity = match child("SpectralQuantity") {
             Some(element) => self.quantity(element).map(|quantity| (quantity, self.place(element))),
             None => {
@@ -229,6 +234,9 @@ impl<'d> Reader<'d> {
                 self.problem(element, "the row has no wavelength", "write `<SpectralData wavelength=\"555\">0.42</SpectralData>`");
                 continue;
             };
+            if let Some(inner) = element.children().find(Node::is_element) {
+                self.problem(inner, format!("an element `{}` within a row", shown(inner.tag_name().name())), "a row holds one number");
+            }
             let wavelength_nm = self.number(element, wavelength.trim());
             let value = self.number(element, text_of(element));
             if let Some(value) = value.filter(|value| *value < 0.0) {

@@ -135,3 +135,17 @@ fn files_of_other_programs_are_read() {
     assert_eq!((found.reflection_geometry, found.bandwidth_fwhm_nm, found.bandwidth_corrected), (None, None, Some(false)));
     assert!(found.remarks.is_empty());
 }
+
+#[test]
+fn what_is_there_twice_is_not_dropped() {
+    let document = |inner: &str| {
+        let rows = r#"<SpectralData wavelength="400">1</SpectralData><SpectralData wavelength="500">2</SpectralData>"#;
+        format!(
+            "<IESTM2714><SpectralDistribution><SpectralQuantity>flux</SpectralQuantity>{inner}{rows}</SpectralDistribution></IESTM2714>"
+        )
+    };
+    assert!(read(document("").as_bytes()).is_ok());
+    let message = |inner: &str| read(document(inner).as_bytes()).unwrap_err()[0].message.clone();
+    assert_eq!(message("<SpectralQuantity>radiance</SpectralQuantity>"), "there is a second `SpectralQuantity`");
+    assert_eq!(message(r#"<SpectralData wavelength="390">1<b>2</b></SpectralData>"#), "an element `b` within a row");
+}

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use crate::spectrum::{Density, Factor, LED_WIDTH_OVER_FWHM, Line, SpectrumError, daylight, library};
+use crate::spectrum::{Density, Factor, LED_WIDTH_OVER_FWHM, Line, Outside, SpectrumError, Table, black_body, daylight, library};
 
 #[test]
 fn a_sum_over_steps_is_the_sum_of_products() {
@@ -91,5 +91,27 @@ proptest! {
             let printed = (g + 2.0 * g.powi(5)) / 3.0;
             prop_assert!((led.continuum_at(peak + t * fwhm) / top / printed - 1.0).abs() < 1e-8);
         }
+    }
+}
+
+#[test]
+fn cold_black_bodies_are_integrated_without_end_of_digits() {
+    for kelvin in [1e-12, 1e-3, 1.0, 2.0, 1e7] {
+        let body = Density::black_body(kelvin).unwrap();
+        let reference = black_body::radiance_w_m2_sr(kelvin);
+        assert!((body.total() / reference - 1.0).abs() < 1e-12, "{kelvin} K");
+        assert!(body.integral(&[&library::v_lambda()]) >= 0.0);
+    }
+    // Far in the tail, scaled into the range of f64: ∫ L V dλ at 20 K is that of the last nanometres of V, near x = c₂/(λT) = 867.
+    let tail = Density::black_body(20.0).unwrap().scaled(1e300).unwrap();
+    let table = Factor::Table(Table::from_rows(&[(829.0, 1.0), (830.0, 1.0)], Outside::Zero).unwrap());
+    let found = tail.integral(&[&table]);
+    let nodes = 200_000;
+    let step = 1.0 / f64::from(nodes);
+    let middle = (0..nodes).map(|i| black_body::ln_spectral_radiance(829.0 + (f64::from(i) + 0.5) * step, 20.0));
+    let expected: f64 = middle.map(|ln| (ln + 300.0 * std::f64::consts::LN_10).exp() * step).sum();
+    assert!((found / expected - 1.0).abs() < 1e-8, "{found:e} {expected:e}");
+    for wrong in [0.0, -1.0, 1e-13, 1e13, f64::NAN, f64::INFINITY] {
+        assert!(Density::black_body(wrong).is_err(), "{wrong}");
     }
 }

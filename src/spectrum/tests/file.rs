@@ -196,3 +196,11 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn numbers_of_photons_are_no_spectrum_of_power() {
+    for unit in ["photons/(s m2 nm)", "µmol/(m² s nm)", "umol m-2 s-1 nm-1"] {
+        let problems = read(format!("# unit: {unit}\n400,1\n500,2\n").as_bytes(), &FileRules::default()).unwrap_err();
+        assert!(problems[0].message.contains("counts photons") && problems[0].help.contains("hc/λ"), "{problems:?}");
+    }
+}

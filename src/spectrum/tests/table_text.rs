@@ -46,6 +46,32 @@ fn all_problems_come_at_once() {
 }
 
 #[test]
+fn a_first_row_with_a_mistake_is_not_dropped_as_a_name() {
+    assert_eq!(only_problem("4OO,0.1\n410,0.2\n420,0.3\n").2, "`4OO` is not a number");
+    assert_eq!(only_problem("O400,0.1\n410,0.2\n420,0.3\n").2, "`O400` is not a number");
+    assert_eq!(problems("４００,１\n410,0.2\n420,0.3\n")[0].line, 1);
+    let twice = parse("\u{feff}\u{feff}400,0.1\n410,0.2\n", &TextRules::default()).unwrap();
+    assert_eq!(twice.wavelengths_nm, [400.0, 410.0]);
+}
+
+#[test]
+fn what_is_not_over_wavelength_is_no_curve() {
+    for name in ["frequency_THz", "wavenumber_cm-1", "wavenumber (1/cm)", "photon energy [eV]", "eV"] {
+        let (line, column, message, help) = only_problem(&format!("{name},value\n400,1\n500,2\n"));
+        assert_eq!((line, column), (1, 1), "{name}");
+        assert!(message.contains(name) && help.contains("nm"), "{message}: {help}");
+    }
+    assert!(only_problem("# per: -5 nm\n400,1\n405,2\n").2.contains("`-5 nm`"));
+}
+
+#[test]
+fn other_encodings_and_line_ends_are_named() {
+    let utf16: Vec<u8> = "400,1\n500,2\n".encode_utf16().flat_map(u16::to_be_bytes).collect();
+    assert!(parse_bytes(&utf16, &TextRules::default()).unwrap_err()[0].message.contains("UTF-16"));
+    assert!(only_problem("400,1\r500,2\r").2.contains("CR alone"));
+}
+
+#[test]
 fn each_problem_says_where_and_what_to_do() {
     let (line, column, message, help) = only_problem("380,0.1\n390,o.2\n");
     assert_eq!((line, column, message.as_str()), (2, 5, "`o.2` is not a number"));

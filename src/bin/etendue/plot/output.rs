@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use etendue::report::plot::{self, Chart, SIDES_PX, Size, Style, Theme};
 
 use super::bad;
-use crate::{Failure, complain};
+use crate::{Failure, complain, disk};
 
 /// Where the picture goes and how it looks.
 #[derive(clap::Args)]
@@ -86,6 +86,9 @@ impl Output {
     pub(super) fn draw(&self, kind: &str, chart: impl Fn() -> Result<Chart, Failure>) -> Result<(), Failure> {
         let target = self.out.clone().unwrap_or_else(|| PathBuf::from(format!("{kind}.svg")));
         let format = Format::of(&target)?;
+        if self.csv.as_ref() == Some(&target) {
+            return Err(bad(format!("--csv {}: that is the file of the picture; give the numbers a name of their own", target.display())));
+        }
         let chart = chart()?;
         let theme = match self.theme {
             ThemeName::Light => Theme::Light,
@@ -104,16 +107,9 @@ impl Output {
     }
 }
 
-/// Writes beside the target first and then moves: there is never half a file.
 fn save(target: &Path, written: &[u8]) -> Result<(), Failure> {
-    let mut partial = target.as_os_str().to_owned();
-    partial.push(".partial");
-    let partial = PathBuf::from(partial);
-    let moved = std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target));
-    moved.map_err(|e| {
-        let _ = std::fs::remove_file(&partial);
-        Failure::Run(format!("error: cannot write {}: {e}", target.display()))
-    })?;
+    let help = "--out and --csv take a file in a folder that can be written";
+    disk::save(target, written).map_err(|e| disk::unwritable(target, &e, help))?;
     complain(&format!("wrote {}", target.display()));
     Ok(())
 }

@@ -168,7 +168,9 @@ pub fn chart(contents: &Contents) -> Result<Chart, PlotError> {
 /// White points and spectra.
 fn points(chart: &mut Chart, contents: &Contents, functions: &[Factor; 3]) -> Result<(), PlotError> {
     let (diagram, observer) = (contents.diagram, contents.observer.title());
-    for name in &contents.white_points {
+    // A spectrum that is one of the white points is drawn and named once.
+    let also_spectrum = |name: &String| contents.spectra.iter().any(|(label, _)| label == name);
+    for name in contents.white_points.iter().filter(|name| !also_spectrum(name)) {
         let unseen = || PlotError::Request { what: format!("{observer} does not see `{name}`") };
         let white = white_point(name, functions).map_err(|e| PlotError::Request { what: e.to_string() })?.ok_or_else(unseen)?;
         let at = diagram.place(&white);
