@@ -106,3 +106,21 @@ fn every_form_has_every_row() {
         assert!(text.contains("penumbra") && text.contains(&format!("{rows} rows")), "{text}");
     }
 }
+
+#[cfg(feature = "plot")]
+#[test]
+fn deviation_and_time_are_drawn() {
+    use etendue::report::plot::{Size, Style, Theme, svg};
+    use etendue::report::stability::chart::{deviations, times};
+    for name in ["penumbra", "grazing", "radiance"] {
+        let sweep = SWEEPS.iter().find(|sweep| sweep.name == name).expect("there is one");
+        let result = swept(sweep, |point| quick(sweep, point));
+        for chart in [deviations(&result), times(&result)] {
+            let chart = chart.expect("more than one row");
+            let drawn = svg(&chart, &Style { theme: Theme::Light, size: Size::Paper }).expect("a picture");
+            assert!(result.summary().iter().all(|failing| drawn.contains(failing.series)), "{name}");
+        }
+    }
+    let one = swept(&SWEEPS[0], |point| point.parameter == 1.0);
+    assert!(deviations(&one).is_none() && times(&one).is_none());
+}
