@@ -23,7 +23,7 @@ fn no_row_of_any_sweep_is_wrong() {
         let result = swept(sweep, |point| quick(sweep, point));
         let wrong: Vec<_> = result.wrong().collect();
         assert!(wrong.is_empty(), "{}: {wrong:#?}", sweep.name);
-        assert!(result.rows.len() >= 8, "{}", sweep.name);
+        assert!(result.rows.len() >= 5, "{}", sweep.name);
         assert!(result.rows.iter().all(|row| row.judgement != Judgement::Told || row.note.starts_with("error: ")), "{}", sweep.name);
     }
 }
