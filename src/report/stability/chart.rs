@@ -60,7 +60,7 @@ fn drawn(result: &SweepResult, what: &str, quantity: &str, unit: &str, y: impl F
     }
     let all = || curves.iter().flat_map(|c: &Curve| c.points.iter().map(|p| p[0]));
     let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
-    if !(low < high) {
+    if low >= high {
         return None;
     }
     let parameter = if sweep.unit == "°" { "90° less the angle from the normal" } else { sweep.parameter };
