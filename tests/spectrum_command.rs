@@ -240,3 +240,18 @@ fn what_is_no_file_is_written_to_and_not_replaced() {
     assert!(still_a_pipe && read.contains("illuminance"), "{read}");
     std::fs::remove_file(&pipe).unwrap();
 }
+
+#[cfg(feature = "plot")]
+#[test]
+fn numbers_that_were_converted_to_per_nm_bear_that_unit() {
+    let folder = std::env::temp_dir().join(format!("etendue-plot-unit-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("lamp.csv"), "# wavelength_unit: nm\n# unit: W/(m2 um)\n400,1000\n500,2000\n").unwrap();
+    let arguments = ["plot", "spectrum", "lamp.csv", "--relative-to", "nothing", "--csv", "lamp-drawn.csv"];
+    let output = Command::new(env!("CARGO_BIN_EXE_etendue")).current_dir(&folder).args(arguments).output().unwrap();
+    let message = text(&output.stderr);
+    assert!(output.status.success() && message.contains("divided by 1000"), "{message}");
+    let drawn = std::fs::read_to_string(folder.join("lamp-drawn.csv")).unwrap();
+    assert!(drawn.contains("W/(m² nm)") && drawn.contains(",400,1,"), "{drawn}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}

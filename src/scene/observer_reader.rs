@@ -12,6 +12,8 @@
 //! | `"cones 2 degree"`, `"cones 10 degree"`, `"CIE 170-1"` | L, M, S | 1; the fundamentals are 1 at their maximum | W/m² |
 //! | `"CIE S 026"` | sc, mc, lc, rh, mel | 1 | W/m² |
 //! | `"photopic and scotopic"` | E_v, E′_v | K_m, K′_m | lx |
+//! | `"V_M"`, `"V_F"`, `"V_F,10"`, `"V_10"` | E_v | K of that luminous efficiency | lx |
+//! | `"mesopic"` with `adaptation: 0.5` | E_v | K of V_mes at that coefficient of adaptation, 0 to 1 (CIE 191) | lx |
 //!
 //! With `of: Radiance` all is divided by `∫R cosθ dω` of the acceptance: cd/m² and W/(m² sr). Aperture and acceptance are those of
 //! the sensor. Sets of real primaries (r̄ ḡ b̄) are refused: they are negative somewhere, which no responsivity is, and what is
@@ -22,7 +24,7 @@ use super::decode::{Fields, Value};
 use super::document::{Body, Kind};
 use super::reading::Reading;
 use crate::naming::{same, suggestion};
-use crate::observer::{AlphaOpic, Cone, Cones, Efficiency, Individual, Matching, ObserverError};
+use crate::observer::{AlphaOpic, Cone, Cones, Efficiency, Individual, Matching, ObserverError, mesopic};
 use crate::quantity::measurand::Measurand;
 use crate::sensor::{Acceptance, Channel};
 use crate::spectrum::Factor;
@@ -32,9 +34,24 @@ const CONES_10: &str = "cones 10 degree";
 const INDIVIDUAL: &str = "CIE 170-1";
 const ALPHA_OPIC: &str = "CIE S 026";
 const DAY_AND_NIGHT: &str = "photopic and scotopic";
+const MESOPIC: &str = "mesopic";
 
-const NAMES: [&str; 9] =
-    ["CIE 1931", "CIE 1964", "CIE 2015 2 degree", "CIE 2015 10 degree", CONES_2, CONES_10, INDIVIDUAL, ALPHA_OPIC, DAY_AND_NIGHT];
+const NAMES: [&str; 14] = [
+    "CIE 1931",
+    "CIE 1964",
+    "CIE 2015 2 degree",
+    "CIE 2015 10 degree",
+    CONES_2,
+    CONES_10,
+    INDIVIDUAL,
+    ALPHA_OPIC,
+    DAY_AND_NIGHT,
+    MESOPIC,
+    "V_M",
+    "V_F",
+    "V_F,10",
+    "V_10",
+];
 
 /// Whether a value is an observer rather than a channel or a list of channels.
 pub(super) fn is_observer(value: &Value) -> bool {
@@ -45,7 +62,7 @@ pub(super) fn is_observer(value: &Value) -> bool {
 pub(super) fn read_observer(value: &Value, acceptance: Option<&Acceptance>, reading: &mut Reading) -> Option<Vec<Channel>> {
     let (name_value, fields) = match &value.node.kind {
         Kind::Struct { body: Body::Named(_), .. } => {
-            let fields = value.fields("`Observer`", &["name", "age_yr", "field_deg", "of"], &mut reading.problems)?;
+            let fields = value.fields("`Observer`", &["name", "age_yr", "field_deg", "adaptation", "of"], &mut reading.problems)?;
             (fields.require("name", "\"CIE 1931\"", &mut reading.problems)?, Some(fields))
         }
         _ => (value.positional(1, "Observer(\"CIE 1931\")", &mut reading.problems)?.into_iter().next()?, None),
@@ -58,6 +75,11 @@ pub(super) fn read_observer(value: &Value, acceptance: Option<&Acceptance>, read
     {
         let why = format!("only \"{INDIVIDUAL}\" has an age and a field of one's choice");
         fields.refuse(&["age_yr", "field_deg"], &why, &mut reading.problems);
+    }
+    if name != MESOPIC
+        && let Some(fields) = &fields
+    {
+        fields.refuse(&["adaptation"], &format!("only \"{MESOPIC}\" has a coefficient of adaptation"), &mut reading.problems);
     }
     let cones = match name {
         CONES_2 => Some(Cones::StockmanSharpe2),
@@ -98,7 +120,23 @@ pub(super) fn read_observer(value: &Value, acceptance: Option<&Acceptance>, read
                     .collect(),
             )
         }
-        _ => read_tristimulus(&name_value, name, of, reading),
+        MESOPIC => {
+            let adaptation = read_adaptation(value, fields.as_ref(), reading);
+            let (per_irradiance, is_radiance) = of?;
+            let adaptation = adaptation?;
+            let curve = mesopic::curve(adaptation).map_err(|error| noted(value, &error, reading)).ok()?;
+            let efficacy_lm_w = mesopic::max_efficacy_lm_w(adaptation).map_err(|error| noted(value, &error, reading)).ok()?;
+            Some(vec![luminous(curve, efficacy_lm_w * per_irradiance, "mesopic", "mes", is_radiance)])
+        }
+        _ => match Efficiency::named(name) {
+            Ok(efficiency) if Matching::named(name).is_err() => {
+                let (per_irradiance, is_radiance) = of?;
+                let by = format!("{}-weighted", efficiency.symbol());
+                let index = efficiency.symbol().trim_end_matches("(λ)").replacen('V', "v", 1);
+                Some(vec![luminous(efficiency.curve(), efficiency.max_efficacy_lm_w() * per_irradiance, &by, &index, is_radiance)])
+            }
+            _ => read_tristimulus(&name_value, name, of, reading),
+        },
     }
 }
 
@@ -121,6 +159,32 @@ fn read_tristimulus(value: &Value, name: &str, of: Option<(f64, bool)>, reading:
     let words = |symbol: &str| weighted(&format!("tristimulus value {symbol}, {}", set.short_title()), symbol, unit);
     let functions = set.values().into_iter().zip(set.functions());
     Some(functions.map(|(symbol, curve)| channel(symbol, curve, words(symbol), scale)).collect())
+}
+
+/// A channel of a luminous quantity by another luminous efficiency than V(λ).
+fn luminous(curve: Factor, scale: f64, adjective: &str, index: &str, is_radiance: bool) -> Channel {
+    let reads = if is_radiance {
+        weighted(&format!("{adjective} luminance"), &format!("L_{index}"), "cd/m²")
+    } else {
+        weighted(&format!("{adjective} illuminance"), &format!("E_{index}"), "lx")
+    };
+    channel(if is_radiance { "L_v" } else { "E_v" }, curve, reads, scale)
+}
+
+fn read_adaptation(value: &Value, fields: Option<&Fields>, reading: &mut Reading) -> Option<f64> {
+    let Some(fields) = fields else {
+        let help = format!("write `Observer(name: \"{MESOPIC}\", adaptation: 0.5)`");
+        value.problem(&mut reading.problems, format!("\"{MESOPIC}\" needs a coefficient of adaptation"), help);
+        return None;
+    };
+    fields.require("adaptation", "0.5", &mut reading.problems).and_then(|v| {
+        v.number_in(
+            "the coefficient of adaptation",
+            "0 (rods alone) to 1 (cones alone)",
+            |m| (0.0..=1.0).contains(&m),
+            &mut reading.problems,
+        )
+    })
 }
 
 fn read_individual(value: &Value, fields: Option<&Fields>, reading: &mut Reading) -> Option<Individual> {

@@ -76,7 +76,7 @@ fn names_beside(path: &str) -> Vec<String> {
     names
 }
 
-/// Reads a scene, or says everything that is wrong with it. How its files were understood is said on stderr.
+/// Reads a scene and says how its files were understood, or says everything that is wrong with it.
 pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
     let path = match root {
         None => through_scenes_folder(path),

@@ -249,10 +249,10 @@ impl Spectrum {
     fn chart(&self) -> Result<Chart, Failure> {
         use plot::spectrum::{Choice, Item, Scaling};
         let given = all(&self.spectra, |text| spectrum_from_text(text, &disk::Anywhere))?;
-        given.iter().flat_map(|one| &one.remarks).for_each(|remark| complain(remark));
+        given.iter().flat_map(|one| &one.remarks).for_each(|remark| complain(&format!("remark: {remark}")));
         // Units are written only where all agree.
         let unit = |one: &GivenSpectrum| match &one.file {
-            Some(file) => file.unit.clone(),
+            Some(file) => file.unit.as_deref().map(|unit| drawn_unit(unit, file.remarks.iter().any(|r| r.ends_with("to be per nm")))),
             None => library::entry(&one.name).ok().map(|entry| entry.unit.clone()),
         };
         let mut units: Vec<String> = given.iter().map(|one| unit(one).unwrap_or_default()).collect();
@@ -271,6 +271,15 @@ impl Spectrum {
         let items = given.into_iter().map(|one| Item { name: official(&one.name), density: one.density }).collect();
         let (from_nm, to_nm) = self.range;
         plot::spectrum::chart(&Choice { items, scaling, unit: units.join(""), from_nm, to_nm }).map_err(bad)
+    }
+}
+
+/// The unit of the numbers of a file once they are read: per nm, whatever the file has.
+fn drawn_unit(unit: &str, converted: bool) -> String {
+    match observer::sheet::SpectralQuantity::of_unit(unit).map(|quantity| quantity.spectral_words().rsplit_once(" in ")) {
+        Some(Some((_, per_nm))) => per_nm.to_owned(),
+        _ if converted => format!("{unit}, converted to per nm"),
+        _ => unit.to_owned(),
     }
 }
 
@@ -296,7 +305,10 @@ impl Reflectance {
                 })
                 .collect::<Result<Vec<_>, String>>(),
             Err(_) => factor_from_text(text, Outside::Hold, &disk::Anywhere)
-                .map(|given| vec![Item { name: official(&given.name), factor: given.factor }])
+                .map(|given| {
+                    given.remarks.iter().for_each(|remark| complain(&format!("remark: {remark}")));
+                    vec![Item { name: official(&given.name), factor: given.factor }]
+                })
                 .map_err(|e| e.to_string()),
         })?;
         let title = match &self.items[..] {

@@ -91,7 +91,9 @@ pub fn responsivity(sensors: &[Sensor]) -> Result<Chart, PlotError> {
             return Err(PlotError::Request { what });
         }
         let points = of_factor(factor, from, to).into_iter().map(|[nm, s]| [nm, s / peak]).collect();
-        chart.curves.push(Curve::new(&label, points, Ink::Palette(index)));
+        // With more channels the colours come again, dashed and then dotted.
+        let dash = [Dash::Solid, Dash::Dashed, Dash::Dotted][(index / 8).min(2)];
+        chart.curves.push(Curve::new(&label, points, Ink::Palette(index)).dashed(dash));
     }
     chart.strip = strip(from, to);
     Ok(chart)

@@ -94,3 +94,25 @@ fn scotopic_and_weighted_channels_indicate_what_they_say() {
     assert_close(reads(&found[3], &lamp) * std::f64::consts::PI, 3.0 * lamp.total());
     assert_eq!(found[2].reads, Measurand::Weighted { name: "n".into(), symbol: "s".into(), unit: "u".into() });
 }
+
+#[test]
+fn any_luminous_efficiency_is_an_observer_with_its_own_efficacy() {
+    let lamp = library::density("LED-B3").unwrap();
+    let of = [
+        ("V_M", Efficiency::JuddVos1978),
+        ("V_F", Efficiency::Physiological2),
+        ("V_F,10", Efficiency::Physiological10),
+        ("V_10", Efficiency::TenDegree1964),
+    ];
+    for (name, efficiency) in of {
+        let found = channels("Cosine", &format!("Observer(\"{name}\")"));
+        assert_eq!((found.len(), found[0].reads.unit()), (1, "lx"));
+        assert_close(reads(&found[0], &lamp), efficiency::luminous(&lamp, efficiency));
+    }
+    // MES2 at its two ends: rods alone and cones alone.
+    let mesopic = |m: f64| reads(&channels("Cosine", &format!("Observer(name: \"mesopic\", adaptation: {m})"))[0], &lamp);
+    assert_close(mesopic(1.0), efficiency::luminous(&lamp, Efficiency::Photopic1924));
+    let scotopic = efficiency::luminous(&lamp, Efficiency::Scotopic1951);
+    // 683.002 · 1699/683 instead of 1700.05.
+    assert_close(mesopic(0.0), scotopic * (683.002 * 1699.0 / 683.0) / 1700.05);
+}

@@ -26,6 +26,8 @@ fn any_density() -> impl Strategy<Value = Density> {
 }
 
 proptest! {
+    // A case resamples a black body or a narrow Gaussian over hundreds of bins.
+    #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]
     fn bin_averages_keep_the_power_between_the_ends(density in any_density(), step in 0.5..20.0_f64) {
         let found = resample(&density, 400.0, 800.0, step, Rule::BinAverages, Lines::Keep).unwrap();

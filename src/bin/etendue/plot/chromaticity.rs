@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use etendue::observer::Matching;
 use etendue::report::plot::Chart;
 use etendue::report::plot::chromaticity::{Contents, Diagram, DisplayGamut, chart};
-use etendue::scene::spectrum_from_text;
+use etendue::scene::{sensor_from_file, spectrum_from_text};
 
 use super::output::Output;
 use super::{all, bad, official};
@@ -29,6 +29,9 @@ pub(super) struct Arguments {
     /// The gamut of a display whose primaries have these spectra, in order around it.
     #[arg(long, value_name = "SPECTRUM", num_args = 3..)]
     primaries: Vec<String>,
+    /// What the channels of a sensor file select out of the equal-energy spectrum, as if they were filters; three channels or more.
+    #[arg(long, value_name = "FILE")]
+    sensor: Vec<String>,
     #[command(flatten)]
     pub(super) output: Output,
 }
@@ -71,11 +74,14 @@ impl Arguments {
         };
         let given = all(&self.spectra, |text| spectrum_from_text(text, &disk::Anywhere))?;
         let primaries = all(&self.primaries, |text| spectrum_from_text(text, &disk::Anywhere))?;
-        given.iter().chain(&primaries).flat_map(|one| &one.remarks).for_each(|remark| complain(remark));
+        given.iter().chain(&primaries).flat_map(|one| &one.remarks).for_each(|remark| complain(&format!("remark: {remark}")));
         let mut gamuts = all(&self.gamut, DisplayGamut::named)?;
         if !primaries.is_empty() {
             let spectra: Vec<_> = primaries.into_iter().map(|one| one.density).collect();
             gamuts.push(DisplayGamut::of_primaries("primaries", &spectra, observer).map_err(bad)?);
+        }
+        for sensor in all(&self.sensor, |path| sensor_from_file(path, &disk::Anywhere, None))? {
+            gamuts.push(DisplayGamut::of_sensor(&sensor, observer).map_err(bad)?);
         }
         let white_points = self.white.iter().map(|name| name.trim().to_owned()).filter(|name| !name.is_empty()).collect();
         let spectra = given.into_iter().map(|one| (official(&one.name), one.density)).collect();

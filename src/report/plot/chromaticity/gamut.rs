@@ -5,7 +5,8 @@ use super::super::error::PlotError;
 use super::Contents;
 use crate::observer::Matching;
 use crate::observer::colour::{Chromaticity, Tristimulus};
-use crate::spectrum::{Density, Factor};
+use crate::sensor::Sensor;
+use crate::spectrum::{Density, Factor, library};
 
 /// A polygon of primaries.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +39,14 @@ impl DisplayGamut {
         };
         let primaries = primaries.map(|[x, y]| Chromaticity { x, y }).to_vec();
         Ok(Self { name: name.to_owned(), primaries, observer: Matching::Cie1931 })
+    }
+
+    /// The chromaticities that the channels of a sensor select out of the equal-energy spectrum, as if their responsivities were filters, in
+    /// the order of the channels. Errors as [`Self::of_primaries`].
+    pub fn of_sensor(sensor: &Sensor, observer: Matching) -> Result<Self, PlotError> {
+        let equal_energy = library::density("E").map_err(|error| PlotError::Request { what: error.to_string() })?;
+        let passed: Vec<Density> = sensor.channels.iter().map(|channel| equal_energy.filtered(&channel.responsivity)).collect();
+        Self::of_primaries(&sensor.title, &passed, observer)
     }
 
     /// The gamut of a display whose primaries have these spectra. Errors if there are fewer than three or the observer does not see one.
