@@ -43,6 +43,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/spectrum/json.rs",
             "src/report/verify/json.rs",
             "src/report/convergence/json.rs",
+            "src/report/stability/json.rs",
         ],
     ),
     (
@@ -53,12 +54,22 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/spectrum/json.rs",
             "src/report/verify/json.rs",
             "src/report/convergence/json.rs",
+            "src/report/stability/json.rs",
             "src/study/verify/",
         ],
     ),
     // Only the oracle of a test, and tests are no doors.
     ("ron", &["tests"]),
-    ("csv", &["src/report/csv.rs", "src/report/spectrum/", "src/report/verify/csv.rs", "src/report/convergence/"]),
+    (
+        "csv",
+        &[
+            "src/report/csv.rs",
+            "src/report/spectrum/",
+            "src/report/verify/csv.rs",
+            "src/report/convergence/",
+            "src/report/stability/csv.rs",
+        ],
+    ),
     (
         "thiserror",
         &[

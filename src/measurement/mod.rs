@@ -11,8 +11,10 @@
 //! | wavelengths between the nodes | B | residual of the spectral quadrature |
 //! | quadrature over aperture or response | B | its own error estimate |
 //! | double-precision arithmetic | B | within ± 1e-12 of the value |
+//! | rounding of coordinates | B | far from the origin, and of slivers, where it is more than that (`coordinates.rs`) |
 //! | what a rule left out | B | its bound |
 
+mod coordinates;
 mod header;
 mod provenance;
 mod reading;

@@ -1,6 +1,7 @@
 //! Readings of all instruments of a scene.
 
 use super::Provenance;
+use super::coordinates::Coordinates;
 use crate::estimate::journal::{Journal, Unrecorded};
 use crate::estimate::{ChannelEstimate, Counters, EstimateError, PoseEstimate, Stop, Watch, estimate_with};
 use crate::math::DVec3;
@@ -91,11 +92,13 @@ pub fn measure_with(
     let start = (watch.now)();
     let estimates = estimate_with(scene, plan, stop, seed, watch, journal)?;
     let mut readings = Vec::new();
+    let coordinates = Coordinates::of(scene);
     for (i, (instrument, poses)) in scene.instruments.iter().zip(&estimates.poses).enumerate() {
         let left_out: Vec<LeftOut> = (0..instrument.sensor.channels.len()).map(|c| LeftOut::of(plan, i, c)).collect();
         for (index, pose) in poses.iter().enumerate() {
+            let coordinates = coordinates.share(scene, instrument.poses[index].at);
             for (c, channel) in pose.channels.iter().enumerate() {
-                let reading = read(instrument, index, c, pose, channel, &left_out[c]);
+                let reading = read(instrument, index, c, (pose, coordinates), channel, &left_out[c]);
                 if !(reading.value.is_finite() && reading.expanded.expanded_uncertainty.is_finite()) {
                     return Err(EstimateError::OutOfRange { instrument: instrument.name.clone() });
                 }
@@ -141,7 +144,14 @@ impl LeftOut {
     }
 }
 
-fn read(instrument: &Instrument, index: usize, c: usize, pose: &PoseEstimate, estimate: &ChannelEstimate, left_out: &LeftOut) -> Reading {
+fn read(
+    instrument: &Instrument,
+    index: usize,
+    c: usize,
+    (pose, coordinates): (&PoseEstimate, f64),
+    estimate: &ChannelEstimate,
+    left_out: &LeftOut,
+) -> Reading {
     let sensor = &instrument.sensor;
     let channel = &sensor.channels[c];
     // A validated sensor has an area where its measurand needs one.
@@ -167,6 +177,9 @@ fn read(instrument: &Instrument, index: usize, c: usize, pose: &PoseEstimate, es
             budget.push(BudgetRow::rectangular("quadrature", scale * estimate.exact.quadrature_error));
         }
         budget.push(BudgetRow::rectangular("double-precision arithmetic", ARITHMETIC * (scale * estimate.exact.value).abs()));
+        if coordinates > ARITHMETIC {
+            budget.push(BudgetRow::rectangular("rounding of coordinates", coordinates * (scale * estimate.exact.value).abs()));
+        }
     }
     for &(rule, bound) in &left_out.bounds {
         budget.push(BudgetRow::one_sided(format!("left out: {rule}"), bound));

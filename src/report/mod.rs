@@ -9,6 +9,7 @@
 //! | `lecture/` | equations of the lecture and the table of quantities, as text and JSON |
 //! | `spectrum/` | the quantities of one spectrum, in the same three forms |
 //! | `verify/` | what became of reference cases, as text, JSON, CSV and a page of HTML |
+//! | `stability/` | sweeps of numerical stability |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
 pub mod convergence;
@@ -18,5 +19,6 @@ pub mod lecture;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod spectrum;
+pub mod stability;
 pub mod text;
 pub mod verify;

@@ -25,6 +25,7 @@ mod plot;
 mod processor_time;
 mod repeat;
 mod spectrum;
+mod stability;
 mod verify;
 
 use std::io::Write;
@@ -65,6 +66,8 @@ enum Command {
     Spectrum(spectrum::Arguments),
     /// Compute every closed-form and reference case on this machine.
     Verify(verify::Arguments),
+    /// Drive scenes to where they are stiff or extreme, and hold their readings against closed forms and laws.
+    Stability(stability::Arguments),
 }
 
 /// Why a command ended early; what it has to say is on stderr already or is said here.
@@ -89,6 +92,7 @@ fn main() -> ExitCode {
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Stability(arguments) => stability::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -13,7 +13,7 @@
 //! the side from which its vertices run counterclockwise.
 //!
 //! The sum cancels for polygons that are small or seen edge-on. Its rounding error is estimated from its terms, and where it exceeds
-//! 1e-11 of the sum the strips of `fan.rs` take over. In the plane of the polygon the result is the limit from the side that the
+//! 1e-12 of the sum the strips of `fan.rs` take over. In the plane of the polygon the result is the limit from the side that the
 //! receiver faces: π(1 + |n·m|)/2 strictly inside, 0 on the boundary and outside.
 
 use super::fan::{Acceptance, StripLine, StripPoint, integrate_azimuth};
@@ -22,7 +22,7 @@ use crate::math::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Largest estimated relative rounding error with which the sum over edges is accepted.
-pub(super) const MAX_ROUNDING: f64 = 1e-11;
+pub(super) const MAX_ROUNDING: f64 = 1e-12;
 
 /// Projected solid angle, sr, of a one-sided polygon; 0 for a receiver behind it.
 pub fn polygon(vertices: &[DVec3], normal: DVec3) -> f64 {

@@ -1,9 +1,9 @@
 //! A surface of triangles in the world.
 //!
-//! Vertices are kept as `p = centre + size v` with the centre of the bounding box in `f64`, a size that is a power of two, and `v` in
-//! `f32` within the unit cube -1..=1. So neither the unit nor the place of a mesh costs digits: the rounding of a vertex is at most
-//! 2^-24 of half the mesh's largest extent. Every answer (points, normals, areas, samples) is computed in `f64` from these rounded
-//! vertices, and so all answers agree with one another.
+//! Vertices are kept as `p = centre + size v` with the centre of the bounding box, a size that is a power of two, and `v` within the
+//! unit cube -1..=1, all in `f64`. So neither the unit nor the place of a mesh costs digits. Every answer (points, normals, areas,
+//! samples) is computed from them in `f64`; only the search tree has them in `f32`, rounded by at most 2^-24 of half the mesh's largest
+//! extent, to find which triangle a ray meets.
 //!
 //! | quantity | formula |
 //! |---|---|
@@ -34,7 +34,7 @@ const EXTENT_RANGE_M: std::ops::RangeInclusive<f64> = 1e-140..=1e140;
 pub struct Mesh {
     centre: DVec3,
     size_m: f64,
-    vertices: Vec<[f32; 3]>,
+    vertices: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
     degenerate: usize,
     /// Sum of the areas of triangles 0..=i, in units of `size_m` squared.
@@ -68,7 +68,7 @@ impl Mesh {
         }
         let centre = min * 0.5 + max * 0.5;
         let size_m = power_of_two_above(half_extent);
-        let vertices: Vec<[f32; 3]> = points.iter().map(|&p| ((p - centre) / size_m).as_vec3().to_array()).collect();
+        let vertices: Vec<[f64; 3]> = points.iter().map(|&p| ((p - centre) / size_m).to_array()).collect();
         triangles.retain(|corners| double_area(&vertices, corners) > 0.0);
         if triangles.is_empty() {
             return Err(MeshError::AllDegenerate { triangles: count });
@@ -76,12 +76,13 @@ impl Mesh {
         triangles.shrink_to_fit();
         let corners = || triangles.iter().flatten().map(|&index| local(&vertices, index));
         let (local_min, local_max) = (corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max));
-        let bvh = Bvh::build(&vertices, &triangles);
+        let searched: Vec<[f32; 3]> = vertices.iter().map(|v| v.map(|x| x as f32)).collect();
+        let bvh = Bvh::build(&searched, &triangles);
         let cumulative_area = area::cumulative(triangles.iter().map(|corners| 0.5 * double_area(&vertices, corners)));
         Ok(Mesh { centre, size_m, degenerate: count - triangles.len(), vertices, triangles, cumulative_area, local_min, local_max, bvh })
     }
 
-    /// World coordinates of a triangle's vertices in metres, as they were rounded; `None` if there is no such triangle.
+    /// World coordinates of a triangle's vertices in metres; `None` if there is no such triangle.
     pub fn triangle(&self, triangle: u32) -> Option<[DVec3; 3]> {
         Some(self.local_triangle(triangle)?.map(|v| self.world(v)))
     }
@@ -152,12 +153,11 @@ fn check(points: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     Ok(())
 }
 
-fn local(vertices: &[[f32; 3]], index: u32) -> DVec3 {
-    let [x, y, z] = vertices[index as usize];
-    DVec3::new(f64::from(x), f64::from(y), f64::from(z))
+fn local(vertices: &[[f64; 3]], index: u32) -> DVec3 {
+    DVec3::from_array(vertices[index as usize])
 }
 
-fn double_area(vertices: &[[f32; 3]], corners: &[u32; 3]) -> f64 {
+fn double_area(vertices: &[[f64; 3]], corners: &[u32; 3]) -> f64 {
     area_vector(corners.map(|index| local(vertices, index))).length()
 }
 

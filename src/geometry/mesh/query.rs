@@ -3,7 +3,7 @@
 //! Which triangle is met is searched in `f32`; the point is then computed in `f64`. A ray that starts outside is first moved in `f64` to
 //! the mesh's box, so that the search begins next to the mesh.
 //!
-//! A ray that leaves a triangle starts at `p + n (|n| . e)` with `e = gamma(7) max |v|` the bound of the error of a point in `f32`, on the
+//! A ray that leaves a triangle starts at `p + n (|n| . e)` with `e = gamma(8) max |v|` the bound of the error of a point in `f32`, on the
 //! side to which it goes, rounded away (Pharr, Jakob, Humphreys, "Physically Based Rendering", 3.9.5). The triangle itself is skipped.
 //! In units of the mesh's half extent the shift is below 2e-6. A ray that arrives at a triangle ends likewise before it.
 
@@ -11,8 +11,8 @@ use super::{Mesh, area_vector, unit_normal};
 use crate::geometry::bvh::{Hit, NO_TRIANGLE, Ray};
 use crate::math::DVec3;
 
-/// Bound of the relative error of seven roundings in single precision.
-const GAMMA_7_F32: f64 = gamma(7.0, 1.0 / (1_u64 << 24) as f64);
+/// Bound of the relative error of eight roundings in single precision: seven of a point, one of the vertices in the search tree.
+const GAMMA_8_F32: f64 = gamma(8.0, 1.0 / (1_u64 << 24) as f64);
 /// The same in double precision.
 const GAMMA_7_F64: f64 = gamma(7.0, 1.0 / (1_u64 << 53) as f64);
 /// The box at which rays from outside start is larger than the mesh by this, in units of half its extent.
@@ -83,7 +83,7 @@ impl Mesh {
             return (from, DVec3::ZERO);
         };
         let normal = unit_normal(corners);
-        let error = corners.iter().fold(DVec3::ZERO, |largest, v| largest.max(v.abs())) * GAMMA_7_F32;
+        let error = corners.iter().fold(DVec3::ZERO, |largest, v| largest.max(v.abs())) * GAMMA_8_F32;
         let shift = normal * normal.abs().dot(error) * if normal.dot(direction) < 0.0 { -1.0 } else { 1.0 };
         // World coordinates far from the origin are coarse: back into the plane first.
         let in_plane = from - normal * normal.dot(from - corners[0]);
