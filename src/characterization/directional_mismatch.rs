@@ -101,10 +101,28 @@ pub fn f2_of_response(response: &dyn Fn(f64) -> f64, kinks_rad: &[f64], upper_ra
     if let Some(angle) = ends.iter().find(|angle| !deviation(**angle).is_finite()) {
         return Err(DirectionalError::NotFinite(*angle));
     }
+    // Where the deviation changes its sign, its magnitude has a kink.
+    let crossings: Vec<f64> = ends.windows(2).filter_map(|end| crossing(&deviation, end[0], end[1])).collect();
+    ends.extend(crossings);
+    ends.sort_by(f64::total_cmp);
     let integrand = |angle: f64| deviation(angle).abs() * (2.0 * angle).sin();
     let coarse: f64 = ends.windows(2).map(|end| (end[1] - end[0]) * integrand(0.5 * (end[0] + end[1]))).sum();
     let sum: f64 = ends.windows(2).map(|end| piece(&integrand, end[0], end[1], coarse)).sum();
     if sum.is_finite() { Ok(sum) } else { Err(DirectionalError::NotFinite(upper_rad)) }
+}
+
+/// Where a function that has different signs at two angles changes it, by halving.
+fn crossing(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> Option<f64> {
+    let rises = f(low) < 0.0;
+    if f(low) * f(high) >= 0.0 {
+        return None;
+    }
+    // 64 halvings bring any two angles to neighbouring numbers.
+    for _ in 0..64 {
+        let middle = 0.5 * (low + high);
+        if (f(middle) < 0.0) == rises { low = middle } else { high = middle }
+    }
+    Some(0.5 * (low + high))
 }
 
 /// A piece between two angles, taken just inside them: the value at a jump belongs to one side only.
