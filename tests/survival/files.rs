@@ -54,9 +54,12 @@ fn a_torn_end_is_told_and_cut() {
         fs::write(&file, &whole[..whole.len() - missing]).unwrap();
         let again = etendue(&resume(&file));
         assert_eq!(again.status.code(), Some(0));
-        for words in ["pieces of work are known", "bytes of a record that was being written are cut off", "recalled"] {
+        for words in ["pieces of work are known", "bytes of a record that was being written are cut off"] {
             assert!(stderr(&again).contains(words), "no `{words}` in {}", stderr(&again));
         }
+        // Threads write in any order: the largest cut may have taken the only records.
+        let nothing_known = stderr(&again).contains(": 0 pieces of work are known");
+        assert!(nothing_known && missing == 9000 || stderr(&again).contains("recalled"), "{}", stderr(&again));
         // The records that were lost are written again, on several threads in any order.
         let mended = Recording::read(fs::read(&file).unwrap()).unwrap();
         assert_eq!((mended.torn_bytes(), mended.whole_bytes()), (0, whole.len()));
