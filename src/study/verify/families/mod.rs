@@ -1,6 +1,6 @@
 //! How the cases of each family are computed: from their inputs alone, so that further cases of a family need no code.
 //!
-//! A file a part of the project; each holds a table of its families and is named in [`all`].
+//! A file a part of the project; each holds a table of its families and is named in `all`.
 
 mod colour;
 mod extreme;
