@@ -57,6 +57,7 @@ fn grid(chart: &mut Chart, rim: f64) {
         }
     }
     chart.notes.push(note("0".to_owned(), [0.0, 0.0], [0.0, -0.9], Anchor::Middle));
+    chart.notes.push(note("R(θ) cos θ (1)".to_owned(), [-0.5 * rim, 0.0], [0.0, -0.9], Anchor::Middle));
     for step in -6..=6 {
         let degrees = 15.0 * f64::from(step);
         let theta = degrees.to_radians();
@@ -64,7 +65,8 @@ fn grid(chart: &mut Chart, rim: f64) {
         if step % 2 == 0 {
             let (sin, cos) = theta.sin_cos();
             let anchor = if step == 0 { Anchor::Middle } else { [Anchor::End, Anchor::Start][usize::from(step > 0)] };
-            chart.notes.push(note(format!("{:.0}°", degrees.abs()), at(rim, theta), [0.5 * sin, 0.9 * cos], anchor));
+            let name = if step == 0 { "θ = " } else { "" };
+            chart.notes.push(note(format!("{name}{:.0}°", degrees.abs()), at(rim, theta), [0.5 * sin, 0.9 * cos], anchor));
         }
     }
 }
