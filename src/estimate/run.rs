@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 /// Applies `work` to every piece, on all threads of the current pool; the results are in the order of the pieces.
-pub(super) fn in_order<P: Sync, R: Send>(pieces: &[P], work: impl Fn(&P) -> R + Sync + Send) -> Vec<R> {
+pub fn in_order<P: Sync, R: Send>(pieces: &[P], work: impl Fn(&P) -> R + Sync + Send) -> Vec<R> {
     pieces.par_iter().map(work).collect()
 }
 

@@ -6,6 +6,7 @@
 //! | `json.rs` | everything, for programs; numbers keep all their digits |
 //! | `csv.rs` | a row a reading, for spreadsheets |
 //! | `convergence/` | error against run time, in the same three forms; reads references |
+//! | `coverage/` | how often intervals cover the truth, in the same three forms and Markdown |
 //! | `lecture/` | equations of the lecture and the table of quantities, as text and JSON |
 //! | `spectrum/` | the quantities of one spectrum, in the same three forms |
 //! | `verify/` | what became of reference cases, as text, JSON, CSV and a page of HTML |
@@ -13,6 +14,7 @@
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
 pub mod convergence;
+pub mod coverage;
 pub mod csv;
 pub mod json;
 pub mod lecture;

@@ -13,6 +13,7 @@
 mod check;
 mod checkpoint;
 mod converge;
+mod coverage;
 mod disk;
 mod equation;
 mod explain;
@@ -51,6 +52,8 @@ enum Command {
     Equation(equation::Arguments),
     /// True error and claimed uncertainty against run time.
     Converge(converge::Arguments),
+    /// How often the 95 % interval of each sampled reading covers the truth, over many seeds.
+    Coverage(coverage::Arguments),
     /// The curves of the library and the sensor files at hand, by name.
     List(list::Arguments),
     /// Read every instrument of a scene.
@@ -84,6 +87,7 @@ fn main() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Equation(arguments) => equation::run(&arguments),
         Command::Converge(arguments) => converge::run(&arguments),
+        Command::Coverage(arguments) => coverage::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
