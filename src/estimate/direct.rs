@@ -72,6 +72,19 @@ pub(super) fn pilot(job: &SourceJob<'_>, world: &World, receiver: &Receiver<'_>,
     (share, Counters { rays: if job.tested { rays } else { 0 }, samples: u64::from(PILOT), ..Counters::default() })
 }
 
+/// The most that any of a pilot run's connections would bring if the acceptance took it.
+pub(super) fn brightest(job: &SourceJob<'_>, receiver: &Receiver<'_>, stream: Stream) -> f64 {
+    let mut brightest = 0.0_f64;
+    each_sixteen(&[stream], (0, PILOT), |points| {
+        let u = &points.u;
+        for lane in 0..points.lanes {
+            let light = job.lights.sample(receiver.point([u[2][lane], u[3][lane]]), [u[0][lane], u[1][lane]]);
+            brightest = brightest.max(light.weight * receiver.pose.normal.dot(light.to));
+        }
+    });
+    brightest
+}
+
 /// The points `first .. first + count` of every replicate; `known` is E₀, and β is zero without it.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx2+fma", "x86_64+avx2+fma"))]
 pub(super) fn sample(

@@ -1,7 +1,7 @@
 //! Coverage of intervals as JSON.
 //!
-//! Schema 1: `{"schema", "scenes": [{"file", "title", "target", "seeds", "seeds_asked", "exact_readings", "remarks", "rows": [...]}]}`. What is
-//! not finite is `null`.
+//! Schema 1: `{"schema", "scenes": [{"file", "title", "target", "seeds", "seeds_asked", "seconds_per_run", "exact_readings", "remarks",
+//! "rows": [...]}]}`. What is not finite is `null`.
 
 use serde::Serialize;
 
