@@ -44,6 +44,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/verify/json.rs",
             "src/report/convergence/json.rs",
             "src/report/stability/json.rs",
+            "src/report/savings/json.rs",
         ],
     ),
     (
@@ -55,6 +56,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/verify/json.rs",
             "src/report/convergence/json.rs",
             "src/report/stability/json.rs",
+            "src/report/savings/json.rs",
             "src/study/verify/",
         ],
     ),
@@ -68,6 +70,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/verify/csv.rs",
             "src/report/convergence/",
             "src/report/stability/csv.rs",
+            "src/report/savings/csv.rs",
         ],
     ),
     (

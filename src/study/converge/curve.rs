@@ -122,6 +122,26 @@ impl ErrorCurve {
         let told = self.rungs.iter().filter(|r| !r.reference_limits && r.error > 0.0);
         told.map(|r| (r.samples as f64, r.cpu_seconds, r.error)).collect()
     }
+
+    /// The rungs that tell whether an error is reached: those whose error is known, and those where the reference hides it although
+    /// error and reference together stay within.
+    pub fn telling(&self, error: f64) -> impl Iterator<Item = (&Rung, f64)> {
+        self.rungs.iter().filter_map(move |rung| {
+            let at_most = rung.error.hypot(self.reference_uncertainty);
+            match (rung.reference_limits || rung.error == 0.0, at_most <= error) {
+                (false, _) => Some((rung, rung.error)),
+                (true, true) => Some((rung, at_most.max(f64::MIN_POSITIVE))),
+                (true, false) => None,
+            }
+        })
+    }
+
+    /// What it costs to reach an error: `cost` of a rung, taken like the time of [`time_to`].
+    #[must_use]
+    pub fn cost_to(&self, error: f64, cost: impl Fn(&Rung) -> f64) -> TimeTo {
+        let rungs: Vec<(f64, f64, f64)> = self.telling(error).map(|(r, e)| (r.samples as f64, cost(r), e)).collect();
+        time_to(error, &rungs, self.error_by_samples.as_ref())
+    }
 }
 
 fn rung(runs: &Runs, set: &[usize], reference: &Reference, reference_uncertainty: f64) -> Rung {
