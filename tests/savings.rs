@@ -110,7 +110,7 @@ fn the_reports_hold_every_scene_and_rule() {
         assert!(written.contains("dark.ron") && written.contains("every reading is zero"));
         assert!(written.contains("Not the expanded uncertainty"));
     }
-    assert_eq!(csv.lines().count(), 1 + report.scenes.len() * (2 + rule_names().len()));
+    assert_eq!(csv.lines().count(), 1 + report.scenes.len() * (3 + rule_names().len()));
     assert_eq!(json["scenes"].as_array().unwrap().len(), 3);
     assert_eq!(json["rules"].as_array().unwrap().len(), rule_names().len());
     assert_eq!(json["scenes"][0]["planned"]["rays"], 0.0);

@@ -73,14 +73,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let now = || start.elapsed().as_secs_f64();
     let cpu = || clock.seconds();
     let (mut studied, mut failed) = (Vec::new(), Vec::new());
-    for (i, (name, scene)) in scenes.iter().enumerate() {
-        let progress = |done: f64| bar.set_position((1000.0 * (i as f64 + done) / scenes.len() as f64) as u64);
-        let watch = StudyWatch { now: &now, cpu: &cpu, progress: &progress };
-        match with_threads(usize::try_from(arguments.threads).ok(), || savings(name, scene, &options, &watch)) {
-            Ok(found) => studied.push(found),
-            Err(why) => failed.push((name.clone(), why.to_string())),
+    // One pool of threads for all: the time of a thread that ends is no longer counted.
+    with_threads(usize::try_from(arguments.threads).ok(), || {
+        for (i, (name, scene)) in scenes.iter().enumerate() {
+            let progress = |done: f64| bar.set_position((1000.0 * (i as f64 + done) / scenes.len() as f64) as u64);
+            let watch = StudyWatch { now: &now, cpu: &cpu, progress: &progress };
+            match savings(name, scene, &options, &watch) {
+                Ok(found) => studied.push(found),
+                Err(why) => failed.push((name.clone(), why.to_string())),
+            }
         }
-    }
+    });
     bar.finish_and_clear();
     let report = SavingsReport { options, scenes: studied, failed, threads: arguments.threads, cpu_clock: clock.in_words().to_owned() };
     let written = match arguments.format {

@@ -6,11 +6,12 @@ use crate::study::converge::TimeTo;
 use crate::study::savings::{Cost, Factor, RuleSummary, SceneSavings, Spread, Summary, Without};
 
 /// What the marks of the cells mean.
-pub(super) const LEGEND: [(&str, &str); 5] = [
+pub(super) const LEGEND: [(&str, &str); 6] = [
     ("–", "the rule does not act: the plan is the same without it"),
     ("=", "the rule acts, but others do the same when it is gone"),
     ("~", "extrapolated beyond the highest rung by the fitted slope"),
     ("≤", "the lowest rung, 256 samples for each sampled contribution and pose, is good enough; its time and rays stand"),
+    ("*", "compared at the smallest error that both plans reached, for the one asked for is beyond the budget"),
     ("?", "not known: the error does not clearly fall within the budget"),
 ];
 
@@ -32,7 +33,7 @@ pub(super) const PLAN_HEAD: [&str; 10] =
     ["scene", "plan", "terms", "planning", "in all", "factor", "rays", "samples", "BVH nodes", "spectral nodes"];
 
 /// The row of each rule, then that of all together.
-pub(super) fn rule_rows(summary: &Summary, scenes: usize) -> Vec<Vec<String>> {
+pub(super) fn rule_rows(summary: &Summary, scenes: usize, asked: f64) -> Vec<Vec<String>> {
     let row = |name: &str, acts: usize, alone: usize, times: Option<&Spread>, largest: String, rays: Option<&Spread>, planning: String| {
         let number =
             |spread: Option<&Spread>, of: fn(&Spread) -> f64, how: fn(f64) -> String| spread.map_or("–".to_owned(), |s| how(of(s)));
@@ -51,7 +52,7 @@ pub(super) fn rule_rows(summary: &Summary, scenes: usize) -> Vec<Vec<String>> {
         ]
     };
     let of = |r: &RuleSummary| {
-        let largest = r.largest.map_or("–".to_owned(), |f| factor(&f));
+        let largest = r.largest.map_or("–".to_owned(), |f| factor(&f, asked));
         row(r.rule, r.acts, r.alone, r.times.as_ref(), largest, r.rays.as_ref(), time(r.planning_seconds))
     };
     let mut rows: Vec<Vec<String>> = summary.rules.iter().map(of).collect();
@@ -61,7 +62,7 @@ pub(super) fn rule_rows(summary: &Summary, scenes: usize) -> Vec<Vec<String>> {
 }
 
 /// The row of each plan of a scene.
-pub(super) fn plan_rows(scene: &SceneSavings) -> Vec<Vec<String>> {
+pub(super) fn plan_rows(scene: &SceneSavings, asked: f64) -> Vec<Vec<String>> {
     let row = |plan: String, terms: String, cost: &Cost| {
         let mark = mark(&cost.measuring);
         vec![
@@ -70,7 +71,7 @@ pub(super) fn plan_rows(scene: &SceneSavings) -> Vec<Vec<String>> {
             terms,
             time(cost.planning_seconds),
             cost.seconds().map_or("?".to_owned(), |s| format!("{mark}{}", time(s))),
-            scene.time_factor(cost).map_or("?".to_owned(), |f| factor(&f)),
+            cost.factor.map_or("?".to_owned(), |f| factor(&f, asked)),
             cost.rays.map_or("?".to_owned(), |n| counted(mark, n)),
             cost.samples.map_or("?".to_owned(), |n| counted(mark, n)),
             cost.bvh_nodes.to_string(),
@@ -83,15 +84,16 @@ pub(super) fn plan_rows(scene: &SceneSavings) -> Vec<Vec<String>> {
         _ => None,
     }));
     rows.push(row("naive".to_owned(), String::new(), &scene.naive));
+    rows.push(row("all rules again".to_owned(), String::new(), &scene.again));
     rows
 }
 
-/// The factors of a scene: naive, then every rule.
-pub(super) fn factor_row(scene: &SceneSavings) -> Vec<String> {
-    let of = |cost: &Cost| scene.time_factor(cost).map_or("?".to_owned(), |f| factor(&f));
+/// The factors of a scene: the same plan again, naive, then every rule.
+pub(super) fn factor_row(scene: &SceneSavings, asked: f64) -> Vec<String> {
+    let of = |cost: &Cost| cost.factor.map_or("?".to_owned(), |f| factor(&f, asked));
     let mark = mark(&scene.planned.measuring);
     let all = scene.planned.seconds().map_or("?".to_owned(), |s| format!("{mark}{}", time(s)));
-    let mut row = vec![short(&scene.name), scene.readings.to_string(), all, of(&scene.naive)];
+    let mut row = vec![short(&scene.name), scene.readings.to_string(), all, of(&scene.again), of(&scene.naive)];
     row.extend(scene.rules.iter().map(|rule| match &rule.without {
         Without::Idle => "–".to_owned(),
         Without::SameWork => "=".to_owned(),
@@ -114,6 +116,18 @@ pub(super) fn method(report: &SavingsReport) -> String {
     )
 }
 
+/// How little a factor tells.
+pub(super) fn chance(summary: &Summary) -> String {
+    summary.again_times.as_ref().map_or(String::new(), |s| {
+        format!(
+            "The plan with all rules, measured twice in each scene, takes {} to {} its own time (median {}): factors within this range tell nothing.",
+            ratio(s.least),
+            ratio(s.largest),
+            ratio(s.median)
+        )
+    })
+}
+
 /// A scene by its file, without folder `scenes` and extension.
 pub(super) fn short(name: &str) -> String {
     let inside = name.rsplit_once("scenes/").map_or(name, |(_, inside)| inside);
@@ -128,17 +142,18 @@ fn mark(time: &TimeTo) -> &'static str {
     }
 }
 
-pub(super) fn factor(factor: &Factor) -> String {
+pub(super) fn factor(factor: &Factor, asked: f64) -> String {
     let mark = match (factor.extrapolated, factor.lowest) {
         (true, _) => "~ ",
         (false, true) => "≤ ",
         (false, false) => "",
     };
-    format!("{mark}{}", ratio(factor.ratio))
+    let coarser = if factor.error > asked { " *" } else { "" };
+    format!("{mark}{}{coarser}", ratio(factor.ratio))
 }
 
 fn ratio(x: f64) -> String {
-    format!("{} ×", format_significant(x, 2))
+    format!("{} ×", format_significant(x, if (100.0..1000.0).contains(&x) { 3 } else { 2 }))
 }
 
 /// A share; what is not all is never rounded to all.
@@ -161,5 +176,5 @@ pub(super) fn time(seconds: f64) -> String {
         s if s >= 1e-3 => (1e3, "ms"),
         _ => (1e6, "µs"),
     };
-    format!("{} {unit}", format_significant(seconds * scale, 2))
+    format!("{} {unit}", format_significant(seconds * scale, 3))
 }

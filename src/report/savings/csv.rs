@@ -2,11 +2,11 @@
 //!
 //! | columns | |
 //! |---|---|
-//! | `scene`, `plan` | file; `planned`, the rule that is switched off, or `naive` |
+//! | `scene`, `plan` | file; `planned`, the rule that is switched off, `naive`, or `planned again` |
 //! | `acts` | `yes`, `no`, or `same work` where other rules do the same; empty but for rules |
 //! | `terms` | that the rule left out or made cheaper |
 //! | `planning_seconds`, `measuring_seconds`, `how` | processor time; how the latter was found |
-//! | `time_factor`, `rays_saved` | to the plan with all rules; 1 is all |
+//! | `time_factor`, `compared_at_error`, `rays_saved` | to the plan with all rules, at which error; 1 is all rays |
 //! | `rays`, `samples`, `bvh_nodes`, `spectral_nodes` | until the error is reached |
 //!
 //! An empty cell is not known, or, where the plan is the one with all rules, not measured again.
@@ -15,7 +15,7 @@ use super::SavingsReport;
 use super::json::how;
 use crate::study::savings::{Cost, SceneSavings, Without};
 
-const COLUMNS: [&str; 13] = [
+const COLUMNS: [&str; 14] = [
     "scene",
     "plan",
     "acts",
@@ -24,6 +24,7 @@ const COLUMNS: [&str; 13] = [
     "measuring_seconds",
     "how",
     "time_factor",
+    "compared_at_error",
     "rays_saved",
     "rays",
     "samples",
@@ -48,6 +49,7 @@ pub fn to_csv(report: &SavingsReport) -> String {
             };
         }
         let _ = writer.write_record(measured(scene, "naive", ["", ""].map(str::to_owned), &scene.naive));
+        let _ = writer.write_record(measured(scene, "planned again", ["", ""].map(str::to_owned), &scene.again));
     }
     writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
 }
@@ -62,8 +64,9 @@ fn measured(scene: &SceneSavings, plan: &str, [acts, terms]: [String; 2], cost: 
         cost.planning_seconds.to_string(),
         number(cost.measuring.seconds()),
         how(&cost.measuring).to_owned(),
-        number(scene.time_factor(cost).map(|f| f.ratio)),
-        number(scene.rays_saved(cost)),
+        number(cost.factor.map(|f| f.ratio)),
+        number(cost.factor.map(|f| f.error)),
+        number(cost.rays_saved),
         number(cost.rays),
         number(cost.samples),
         cost.bvh_nodes.to_string(),

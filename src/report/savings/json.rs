@@ -1,9 +1,9 @@
 //! What each rule saves, as JSON.
 //!
 //! Schema 1: `{"schema", "error", "seeds", "seed", "budget_seconds", "threads", "cpu_clock", "scenes": [{"scene", "title", "readings",
-//! "planned": {cost}, "naive": {cost}, "rules": [{"rule", "terms", "acts", "planning_seconds", "without": {cost} or null}], "remarks"}],
+//! "planned": {cost}, "naive": {cost}, "again": {cost}, "rules": [{"rule", "terms", "acts", "planning_seconds", "without": {cost} or null}], "remarks"}],
 //! "rules": [{"rule", "acts_in", "alone_in", "time_factor", "rays_saved"}], "not_studied": [{"scene", "why"}]}`. A cost is
-//! `{"planning_seconds", "measuring_seconds", "how", "time_factor", "rays_saved", "rays", "samples", "bvh_nodes", "spectral_nodes"}`.
+//! `{"planning_seconds", "measuring_seconds", "how", "time_factor", "compared_at_error", "rays_saved", "rays", "samples", "bvh_nodes", "spectral_nodes"}`.
 
 use serde::Serialize;
 
@@ -32,6 +32,7 @@ struct Studied<'a> {
     readings: usize,
     planned: Costs,
     naive: Costs,
+    again: Costs,
     rules: Vec<Rule>,
     remarks: &'a [String],
 }
@@ -51,6 +52,7 @@ struct Costs {
     measuring_seconds: Option<f64>,
     how: &'static str,
     time_factor: Option<f64>,
+    compared_at_error: Option<f64>,
     rays_saved: Option<f64>,
     rays: Option<f64>,
     samples: Option<f64>,
@@ -93,13 +95,14 @@ pub(super) fn how(time: &TimeTo) -> &'static str {
     }
 }
 
-fn costs(scene: &SceneSavings, cost: &Cost) -> Costs {
+fn costs(cost: &Cost) -> Costs {
     Costs {
         planning_seconds: cost.planning_seconds,
         measuring_seconds: cost.measuring.seconds(),
         how: how(&cost.measuring),
-        time_factor: scene.time_factor(cost).map(|f| f.ratio),
-        rays_saved: scene.rays_saved(cost),
+        time_factor: cost.factor.map(|f| f.ratio),
+        compared_at_error: cost.factor.map(|f| f.error),
+        rays_saved: cost.rays_saved,
         rays: cost.rays,
         samples: cost.samples,
         bvh_nodes: cost.bvh_nodes,
@@ -107,11 +110,11 @@ fn costs(scene: &SceneSavings, cost: &Cost) -> Costs {
     }
 }
 
-fn rule(scene: &SceneSavings, rule: &RuleInScene) -> Rule {
+fn rule(rule: &RuleInScene) -> Rule {
     let (acts, without) = match &rule.without {
         Without::Idle => ("no", None),
         Without::SameWork => ("same work", None),
-        Without::Costs(cost) => ("yes", Some(costs(scene, cost))),
+        Without::Costs(cost) => ("yes", Some(costs(cost))),
     };
     Rule { rule: rule.rule, terms: rule.terms, acts, planning_seconds: rule.planning_seconds, without }
 }
@@ -121,9 +124,10 @@ fn studied(scene: &SceneSavings) -> Studied<'_> {
         scene: &scene.name,
         title: &scene.title,
         readings: scene.readings,
-        planned: costs(scene, &scene.planned),
-        naive: costs(scene, &scene.naive),
-        rules: scene.rules.iter().map(|r| rule(scene, r)).collect(),
+        planned: costs(&scene.planned),
+        naive: costs(&scene.naive),
+        again: costs(&scene.again),
+        rules: scene.rules.iter().map(rule).collect(),
         remarks: &scene.remarks,
     }
 }

@@ -1,7 +1,7 @@
 //! What each rule saves, as a page of documentation.
 
 use super::SavingsReport;
-use super::cells::{LEGEND, PLAN_HEAD, RULE_HEAD, factor_row, method, plan_rows, rule_rows};
+use super::cells::{LEGEND, PLAN_HEAD, RULE_HEAD, chance, factor_row, method, plan_rows, rule_rows};
 use crate::study::savings::{rule_sentences, summary};
 
 /// The report as Markdown: the rules, then the scenes, then every plan.
@@ -17,6 +17,7 @@ pub fn to_markdown(report: &SavingsReport) -> String {
         &["rule", "what it observes"],
         rule_sentences().into_iter().map(|(rule, sentence)| vec![format!("`{rule}`"), sentence.to_owned()]),
     );
+    let asked = report.options.error;
     let scenes = report.scenes.len();
     text += &format!(
         "\n## What each saves\n\n\
@@ -24,17 +25,19 @@ pub fn to_markdown(report: &SavingsReport) -> String {
          same when it is gone. *Time*: processor time without the rule over that with all rules, in these; *rays saved*: the share of the rays\n\
          without the rule that all rules together do not trace. *Adds to planning*: in the scene where that is most; it is in the times.\n\n"
     );
-    text += &table(&RULE_HEAD, rule_rows(&summary(&report.scenes), scenes).into_iter());
-    text += "\n## Scene by scene\n\n*All rules* is a time, the others are factors to it.\n\n";
+    let summary = summary(&report.scenes);
+    text += &table(&RULE_HEAD, rule_rows(&summary, scenes, asked).into_iter());
+    text += &format!("\n{}\n", chance(&summary));
+    text += "\n## Scene by scene\n\n*All rules* is a time, the others are factors to it; *again* is the same plan once more.\n\n";
     for (mark, meaning) in LEGEND {
         text += &format!("* {mark} {meaning}\n");
     }
     text.push('\n');
-    let mut head = vec!["scene", "readings", "all rules", "naive"];
+    let mut head = vec!["scene", "readings", "all rules", "again", "naive"];
     head.extend(rule_sentences().iter().map(|(rule, _)| *rule));
-    text += &table(&head, report.scenes.iter().map(factor_row));
+    text += &table(&head, report.scenes.iter().map(|scene| factor_row(scene, asked)));
     text += "\n## Every plan\n\n*Terms*: how many the rule left out or made cheaper.\n\n";
-    text += &table(&PLAN_HEAD, report.scenes.iter().flat_map(plan_rows));
+    text += &table(&PLAN_HEAD, report.scenes.iter().flat_map(|scene| plan_rows(scene, asked)));
     if !report.failed.is_empty() {
         text += "\n## Not studied\n\n";
         text += &table(&["scene", "why"], report.failed.iter().map(|(scene, why)| vec![scene.clone(), why.clone()]));

@@ -1,19 +1,21 @@
 //! What each rule saves, as tables for a terminal.
 
 use super::SavingsReport;
-use super::cells::{LEGEND, PLAN_HEAD, RULE_HEAD, method, plan_rows, rule_rows};
+use super::cells::{LEGEND, PLAN_HEAD, RULE_HEAD, chance, method, plan_rows, rule_rows};
 use crate::study::savings::summary;
 
 /// The report as text: every plan of every scene, then the rules.
 #[must_use]
 pub fn to_text(report: &SavingsReport) -> String {
     let mut text = format!("What leaving out is worth\n\n{}\n\n", method(report));
+    let asked = report.options.error;
     let head = || std::iter::once(PLAN_HEAD.map(str::to_owned).to_vec());
-    text += &aligned(&head().chain(report.scenes.iter().flat_map(plan_rows)).collect::<Vec<_>>());
+    text += &aligned(&head().chain(report.scenes.iter().flat_map(|scene| plan_rows(scene, asked))).collect::<Vec<_>>());
     text += "\nThe rules, over these scenes\n\n";
-    let rows = rule_rows(&summary(&report.scenes), report.scenes.len());
+    let summary = summary(&report.scenes);
+    let rows = rule_rows(&summary, report.scenes.len(), asked);
     text += &aligned(&std::iter::once(RULE_HEAD.map(str::to_owned).to_vec()).chain(rows).collect::<Vec<_>>());
-    text.push('\n');
+    text += &format!("\n  {}\n\n", chance(&summary));
     for (mark, meaning) in LEGEND {
         text += &format!("  {mark}  {meaning}\n");
     }

@@ -91,7 +91,6 @@ fn curve(name: String, set: &[usize], places: &[Place], ladder: &Climbed, refere
     let poses: BTreeSet<(&str, usize)> = set.iter().map(|&i| (places[i].instrument.as_str(), places[i].index)).collect();
     let scatter = (0.5 / (ladder.seeds as f64 * poses.len() as f64)).sqrt();
     let told: Vec<&Rung> = rungs.iter().filter(|r| !r.reference_limits && r.error > 0.0).collect();
-    let known: Vec<(f64, f64, f64)> = told.iter().map(|r| (r.samples as f64, r.cpu_seconds, r.error)).collect();
     let claiming: Vec<&Rung> = rungs.iter().filter(|r| r.claimed > 0.0).collect();
     let upper = |rungs: Vec<&'_ Rung>| -> Vec<Rung> {
         let seconds: Vec<f64> = rungs.iter().map(|r| r.cpu_seconds).collect();
@@ -102,17 +101,19 @@ fn curve(name: String, set: &[usize], places: &[Place], ladder: &Climbed, refere
         |rungs: &[Rung], x: fn(&Rung) -> f64, y: fn(&Rung) -> f64| fit(&rungs.iter().map(|r| (x(r), y(r))).collect::<Vec<_>>(), scatter);
     let error_by_samples = by(&told, |r| r.samples as f64, |r| r.error);
     let logarithms: Vec<f64> = told.iter().map(|r| r.ratio().ln()).filter(|l| l.is_finite()).collect();
-    ErrorCurve {
+    let mut curve = ErrorCurve {
         name,
         readings: set.len(),
         reference_uncertainty,
         error_by_time: by(&told, |r| r.cpu_seconds, |r| r.error),
         claimed_by_time: by(&claiming, |r| r.cpu_seconds, |r| r.claimed),
         ratio: (!logarithms.is_empty()).then(|| (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()),
-        times: TARGETS.map(|target| time_to(target, &known, error_by_samples.as_ref())),
+        times: [TimeTo::Unknown; 3],
         error_by_samples,
         rungs,
-    }
+    };
+    curve.times = TARGETS.map(|target| curve.cost_to(target, |rung| rung.cpu_seconds));
+    curve
 }
 
 impl ErrorCurve {

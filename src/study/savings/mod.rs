@@ -3,7 +3,7 @@
 //! ```text
 //! cost         planning time + processor time until the true error stays below ε       (also rays and samples until then)
 //! true error   √ mean over seeds and sampled readings of ((y − y_ref) / y_ref)²         (as `study::converge` has it)
-//! saving       cost without the rule / cost with all rules
+//! saving       cost without the rule / cost with all rules, at ε or at the smallest error that both have reached
 //! ```
 //!
 //! | a rule in a scene | what is measured |
@@ -13,15 +13,17 @@
 //! | acts alone | the plan without it |
 //!
 //! All plans of a scene are measured in one study, one after the other, and held to one reference. A plan of formulas alone has no
-//! error; its time is that of a run. Where the lowest rung of 256 samples is good enough, its time stands for both.
+//! error; its time is that of a run. Where the lowest rung of 256 samples is good enough, its time stands for both. The plan with all rules is
+//! measured twice, first and last: the factor between the two is one but for chance.
 
+mod cost;
 mod summary;
 
 pub use summary::{RuleSummary, Spread, Summary, rule_sentences, summary};
 
 use super::StudyWatch;
-use super::converge::{ConvergeError, ConvergeOptions, FIRST_SAMPLES, PlanConvergence, TimeTo, converge};
-use crate::estimate::{Counters, EstimateError, Stop, Watch};
+use super::converge::{ConvergeError, ConvergeOptions, FIRST_SAMPLES, TimeTo, converge};
+use crate::estimate::{EstimateError, Stop, Watch};
 use crate::measurement::measure;
 use crate::plan::{Plan, PlanError, PlanOptions, rule_names};
 use crate::scene::Scene;
@@ -61,6 +63,11 @@ pub struct Cost {
     pub bvh_nodes: u64,
     /// Wavelengths that paths carry.
     pub spectral_nodes: u64,
+    /// Against the plan with all rules; `None` if there is no error that both reach.
+    pub factor: Option<Factor>,
+    /// The share of this plan's rays that all rules together do not trace, at the error of the factor; negative if they trace more. `None`
+    /// if this plan traces none.
+    pub rays_saved: Option<f64>,
 }
 
 impl Cost {
@@ -74,9 +81,11 @@ impl Cost {
 /// A ratio of processor times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factor {
-    /// Time of the other plan over that of the plan with all rules.
+    /// Time of the other plan over that of the plan with all rules, planning included.
     pub ratio: f64,
-    /// One of them lies beyond the highest rung.
+    /// The error that both reach: the one asked for, or the smallest that both reached where it is larger.
+    pub error: f64,
+    /// The other lies beyond its highest rung; the plan with all rules is exact.
     pub extrapolated: bool,
     /// One of them is that of the lowest rung, which is better than asked for.
     pub lowest: bool,
@@ -121,28 +130,10 @@ pub struct SceneSavings {
     pub rules: Vec<RuleInScene>,
     /// With none.
     pub naive: Cost,
+    /// With all rules once more: how far its factor is from one is how little a factor tells.
+    pub again: Cost,
     /// What a reader should know.
     pub remarks: Vec<String>,
-}
-
-impl SceneSavings {
-    /// How many times the processor time of the plan with all rules.
-    #[must_use]
-    pub fn time_factor(&self, other: &Cost) -> Option<Factor> {
-        let ratio = other.seconds()? / self.planned.seconds().filter(|s| *s > 0.0)?;
-        let either = |is: fn(&TimeTo) -> bool| is(&self.planned.measuring) || is(&other.measuring);
-        Some(Factor {
-            ratio,
-            extrapolated: either(|t| matches!(t, TimeTo::Extrapolated(_))),
-            lowest: either(|t| matches!(t, TimeTo::AtMost(_))),
-        })
-    }
-
-    /// The share of the other plan's rays that all rules together do not trace; negative if they trace more. `None` if none are known.
-    #[must_use]
-    pub fn rays_saved(&self, other: &Cost) -> Option<f64> {
-        Some(1.0 - self.planned.rays? / other.rays.filter(|rays| *rays > 0.0)?)
-    }
 }
 
 /// Why there is nothing to tell of a scene.
@@ -212,64 +203,43 @@ pub fn savings(name: &str, scene: &Scene, options: &SavingsOptions, watch: &Stud
     for rule in rule_names() {
         without.push((rule, planned(scene, &PlanOptions { naive: false, without: vec![rule.to_owned()] }, watch)?));
     }
+    let again = planned(scene, &PlanOptions::default(), watch)?.seconds;
     let differs = |timed: &Timed| !timed.plan.same_work(&full.plan);
     let mut plans: Vec<(&str, &Plan)> = vec![("planned", &full.plan)];
     plans.extend(without.iter().filter(|(_, timed)| differs(timed)).map(|(rule, timed)| (*rule, &timed.plan)));
     plans.push(("naive", &naive.plan));
+    plans.push(("planned again", &full.plan));
     let found = converge(scene, &plans, None, &options.ladder, watch)?;
-    let mut costs = Vec::with_capacity(plans.len());
-    for ((_, plan), convergence) in plans.iter().zip(&found.plans) {
+    let Some(first) = found.plans.first() else { return Err(ConvergeError::Reference("there is no plan".to_owned()).into()) };
+    let mut studied = plans.iter().zip(&found.plans);
+    let mut next = |planning_seconds: f64| -> Result<Cost, SavingsError> {
+        let Some((&(_, plan), convergence)) = studied.next() else {
+            return Err(ConvergeError::Reference("there is no plan".to_owned()).into());
+        };
         // Hierarchies and wavelengths do not depend on the samples.
         let stop = Stop { target: None, budget_seconds: None, samples: Some(FIRST_SAMPLES) };
         let measured = measure(scene, plan, &stop, options.ladder.seed, &Watch { now: watch.now, progress: &|_| {} })?;
-        costs.push(cost(convergence, &measured.counters, options.error));
-    }
-    let mut costs = costs.into_iter();
-    let mut next = |planning_seconds: f64| {
-        let nothing = Cost { planning_seconds, measuring: TimeTo::Unknown, rays: None, samples: None, bvh_nodes: 0, spectral_nodes: 0 };
-        costs.next().map_or(nothing, |cost| Cost { planning_seconds, ..cost })
+        Ok(cost::cost((first, full.seconds), (convergence, planning_seconds), &measured.counters, options.error))
     };
-    let first = next(full.seconds);
-    let rules = without.iter().map(|(rule, timed)| {
+    let all_rules = next(full.seconds)?;
+    let mut rules = Vec::with_capacity(without.len());
+    for (rule, timed) in &without {
         let terms = full.plan.terms_by(rule);
         let without = match (differs(timed), terms) {
-            (true, _) => Without::Costs(next(timed.seconds)),
+            (true, _) => Without::Costs(next(timed.seconds)?),
             (false, 0) => Without::Idle,
             (false, _) => Without::SameWork,
         };
-        RuleInScene { rule, terms, planning_seconds: timed.seconds, without }
-    });
-    let rules = rules.collect();
+        rules.push(RuleInScene { rule, terms, planning_seconds: timed.seconds, without });
+    }
     Ok(SceneSavings {
         name: name.to_owned(),
         title: scene.title.clone(),
         readings: super::converge::places(scene).len(),
-        planned: first,
+        planned: all_rules,
         rules,
-        naive: next(naive.seconds),
+        naive: next(naive.seconds)?,
+        again: next(again)?,
         remarks: found.remarks,
     })
-}
-
-/// What it costs a plan to reach an error, but for planning.
-fn cost(found: &PlanConvergence, counters: &Counters, error: f64) -> Cost {
-    let of_curve = |cost: fn(&super::converge::Rung) -> f64| {
-        let curve = found.curves.first()?;
-        // What is never counted up is known, too.
-        if curve.rungs.iter().all(|rung| cost(rung) == 0.0) { Some(0.0) } else { curve.cost_to(error, cost).seconds() }
-    };
-    let measuring = match (&found.exact, found.curves.first()) {
-        (Some(exact), _) => TimeTo::Interpolated(exact.cpu_seconds),
-        (None, Some(curve)) => curve.cost_to(error, |rung| rung.cpu_seconds),
-        (None, None) => TimeTo::Unknown,
-    };
-    let none = found.exact.is_some().then_some(0.0);
-    Cost {
-        planning_seconds: 0.0,
-        measuring,
-        rays: none.or_else(|| of_curve(|rung| rung.rays)),
-        samples: none.or_else(|| of_curve(|rung| rung.samples_in_all)),
-        bvh_nodes: counters.bvh_nodes,
-        spectral_nodes: counters.spectral_nodes,
-    }
 }

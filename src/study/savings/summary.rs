@@ -46,6 +46,8 @@ pub struct Summary {
     pub naive_times: Option<Spread>,
     /// Shares of its rays that are saved.
     pub naive_rays: Option<Spread>,
+    /// Factors of the plan with all rules to itself.
+    pub again_times: Option<Spread>,
 }
 
 /// Every rule with what it observes, in the order of [`crate::plan::rule_names`].
@@ -61,9 +63,9 @@ pub fn summary(scenes: &[SceneSavings]) -> Summary {
         let cells: Vec<_> = scenes.iter().flat_map(|s| s.rules.iter().filter(|r| r.rule == rule).map(move |r| (s, r))).collect();
         let costs: Vec<_> =
             cells.iter().filter_map(|(s, r)| if let Without::Costs(c) = &r.without { Some((*s, c)) } else { None }).collect();
-        let factors: Vec<(f64, &str)> = costs.iter().filter_map(|(s, c)| s.time_factor(c).map(|f| (f.ratio, s.name.as_str()))).collect();
-        let largest = costs.iter().filter_map(|(s, c)| s.time_factor(c)).max_by(|a, b| a.ratio.total_cmp(&b.ratio));
-        let rays: Vec<(f64, &str)> = costs.iter().filter_map(|(s, c)| s.rays_saved(c).map(|r| (r, s.name.as_str()))).collect();
+        let factors: Vec<(f64, &str)> = costs.iter().filter_map(|(s, c)| c.factor.map(|f| (f.ratio, s.name.as_str()))).collect();
+        let largest = costs.iter().filter_map(|(_, c)| c.factor).max_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        let rays: Vec<(f64, &str)> = costs.iter().filter_map(|(s, c)| c.rays_saved.map(|r| (r, s.name.as_str()))).collect();
         RuleSummary {
             rule,
             sentence,
@@ -75,11 +77,12 @@ pub fn summary(scenes: &[SceneSavings]) -> Summary {
             planning_seconds: cells.iter().map(|(s, r)| s.planned.planning_seconds - r.planning_seconds).fold(0.0, f64::max),
         }
     };
-    let naive = |of: fn(&SceneSavings) -> Option<f64>| spread(scenes.iter().filter_map(|s| Some((of(s)?, s.name.as_str()))).collect());
+    let over_all = |of: fn(&SceneSavings) -> Option<f64>| spread(scenes.iter().filter_map(|s| Some((of(s)?, s.name.as_str()))).collect());
     Summary {
         rules: rule_sentences().into_iter().map(of).collect(),
-        naive_times: naive(|s| s.time_factor(&s.naive).map(|f| f.ratio)),
-        naive_rays: naive(|s| s.rays_saved(&s.naive)),
+        naive_times: over_all(|s| s.naive.factor.map(|f| f.ratio)),
+        naive_rays: over_all(|s| s.naive.rays_saved),
+        again_times: over_all(|s| s.again.factor.map(|f| f.ratio)),
     }
 }
 
