@@ -52,7 +52,8 @@ fn a_rule_that_acts_alone_saves_rays_and_one_that_is_idle_is_not_measured() {
         let found = studied(name);
         assert_eq!(found.rules.iter().map(|r| r.rule).collect::<Vec<_>>(), rule_names(), "{name}");
         let planned = found.planned.rays.unwrap();
-        assert!(found.naive.rays.unwrap() > planned, "{name}");
+        // Not every naive plan comes to 1 % by so few samples.
+        assert!(found.naive.rays.is_none_or(|rays| rays > planned), "{name}");
         for rule in &found.rules {
             let plan = Plan::new(&shelf(name), &PlanOptions::default()).unwrap();
             assert_eq!(rule.terms, plan.terms_by(rule.rule), "{name}");
@@ -61,20 +62,27 @@ fn a_rule_that_acts_alone_saves_rays_and_one_that_is_idle_is_not_measured() {
                 Without::SameWork => assert!(rule.terms > 0, "{name}: {}", rule.rule),
                 Without::Costs(cost) => {
                     assert!(rule.terms > 0, "{name}: {}", rule.rule);
-                    // `closed_form` spares samples where `nothing_blocks` spares their rays.
-                    let more = cost.rays.unwrap() > planned || cost.samples.unwrap() > found.planned.samples.unwrap();
-                    assert!(more || cost.rays == Some(planned), "{name}: {} costs rays: {cost:?}", rule.rule);
+                    assert!(cost.rays.is_none_or(|rays| rays >= planned), "{name}: {} costs rays: {cost:?}", rule.rule);
                 }
             }
         }
     }
-    let bench = studied("photometric-bench");
-    let rays = |rule: &str| match &bench.rules.iter().find(|r| r.rule == rule).unwrap().without {
-        Without::Costs(cost) => cost.rays,
-        other => panic!("{rule}: {other:?}"),
+    let rays = |name: &str, rule: &str| {
+        let found = studied(name);
+        match &found.rules.iter().find(|r| r.rule == rule).unwrap().without {
+            Without::Costs(cost) => (found.planned.rays.unwrap(), cost.rays.unwrap()),
+            other => panic!("{rule}: {other:?}"),
+        }
     };
-    assert_eq!(bench.planned.rays, Some(0.0));
-    assert!(rays("nothing_blocks") > Some(0.0) && rays("no_reflector_in_view") > Some(0.0));
+    for (name, rule) in [
+        ("photometric-bench", "no_reflector_in_view"),
+        ("penumbra", "no_reflector_in_view"),
+        ("light-traps", "weak_reflections"),
+        ("light-traps", "nothing_blocks"),
+    ] {
+        let (with, without) = rays(name, rule);
+        assert!(without > with, "{name}: {rule} spares {without} - {with} rays");
+    }
 }
 
 #[test]
