@@ -45,6 +45,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/convergence/json.rs",
             "src/report/stability/json.rs",
             "src/report/coverage/json.rs",
+            "src/report/savings/json.rs",
         ],
     ),
     (
@@ -57,6 +58,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/convergence/json.rs",
             "src/report/stability/json.rs",
             "src/report/coverage/json.rs",
+            "src/report/savings/json.rs",
             "src/study/verify/",
         ],
     ),
@@ -71,6 +73,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/convergence/",
             "src/report/stability/csv.rs",
             "src/report/coverage/csv.rs",
+            "src/report/savings/csv.rs",
         ],
     ),
     (

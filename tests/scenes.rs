@@ -121,6 +121,13 @@ fn laws() -> Vec<Law> {
             [1024, 4096],
             &[("meter", 0, "E_v", 1.01853 * 0.75f64.sqrt() * 1e9 * PI * 1.784_124_116_152_77e-5f64.powi(2))],
         ),
+        law("penumbra.ron", [16384, 16384], &[("meter", 0, "E_v", half_hidden_panel())]),
+        law("light-traps.ron", [1024, 4096], &[("meter", 0, "E_v", 2000.0 * PI * 0.01 / 4.01)]),
+        law(
+            "stray-lamp.ron",
+            [16384, 16384],
+            &[("spot", 0, "L_v", 100.0), ("at the spot", 0, "E_v", 100.0 * PI * 0.25 / 100.25 + 100.0 * disc(2.0, 10.0))],
+        ),
         law("ideal-integrating-sphere.ron", [1024, 4096], &[("port", 0, "E_v", 1000.0 / (4.0 * PI * 0.0625 * 0.02))]),
         Law {
             // Balance of energy with the same irradiance on every surface.
@@ -181,6 +188,19 @@ fn display() -> Vec<(&'static str, usize, &'static str, f64)> {
 fn disc(beside_m: f64, below_m: f64) -> f64 {
     let (r, z, a) = (beside_m * beside_m, below_m * below_m, 0.01);
     500.0 * PI * (1.0 - (r + z - a) / ((r + z + a).powi(2) - 4.0 * a * r).sqrt())
+}
+
+/// What a blade leaves of a panel of 1000 cd/m², lx: a trapezoid, its edges in turn.
+fn half_hidden_panel() -> f64 {
+    let seen = [(-0.5f64, -0.3f64), (-0.05, -0.3), (0.25, 0.3), (-0.5, 0.3)];
+    let edges = seen.iter().zip(seen.iter().cycle().skip(1));
+    // Corners (x, y, 1): z of the cross product, its length, and the angle between them.
+    let edge = |(&(ax, ay), &(bx, by)): (&(f64, f64), &(f64, f64))| {
+        let (along, up) = ((ay - by).hypot(bx - ax), ax * by - ay * bx);
+        let length = along.hypot(up);
+        length.atan2(ax * bx + ay * by + 1.0) * up / length
+    };
+    500.0 * edges.map(edge).sum::<f64>().abs()
 }
 
 /// Sphere of angular radius 30° and 1000 cd/m² with its centre at an angle from the normal, lx: rings about the centre by midpoints.

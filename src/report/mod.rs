@@ -10,6 +10,7 @@
 //! | `lecture/` | equations of the lecture and the table of quantities, as text and JSON |
 //! | `spectrum/` | the quantities of one spectrum, in the same three forms |
 //! | `verify/` | what became of reference cases, as text, JSON, CSV and a page of HTML |
+//! | `savings/` | what each rule of the plan saves, in the same three forms and as Markdown |
 //! | `stability/` | sweeps of numerical stability |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
@@ -20,6 +21,7 @@ pub mod json;
 pub mod lecture;
 #[cfg(feature = "plot")]
 pub mod plot;
+pub mod savings;
 pub mod spectrum;
 pub mod stability;
 pub mod text;

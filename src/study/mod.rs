@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`coverage`] | how often the interval of a sampled reading covers the truth |
 //! | [`converge`] | true error and claimed uncertainty against run time |
+//! | [`savings`] | what each rule of the plan saves |
 //! | [`stability`] | where readings of stiff and extreme scenes begin to fail |
 //! | [`verify`] | does every reference case come out, on this machine |
 //!
@@ -11,6 +12,7 @@
 
 pub mod converge;
 pub mod coverage;
+pub mod savings;
 pub mod stability;
 pub mod verify;
 

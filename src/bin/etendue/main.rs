@@ -25,6 +25,7 @@ mod output;
 mod plot;
 mod processor_time;
 mod repeat;
+mod rules;
 mod spectrum;
 mod stability;
 mod verify;
@@ -65,6 +66,8 @@ enum Command {
     /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
     #[cfg(feature = "plot")]
     Plot(plot::Arguments),
+    /// What each rule of the plan saves, over the scenes at hand.
+    Rules(rules::Arguments),
     /// Every quantity of one spectrum.
     Spectrum(spectrum::Arguments),
     /// Compute every closed-form and reference case on this machine.
@@ -94,6 +97,7 @@ fn main() -> ExitCode {
         Command::Repeat(arguments) => repeat::run(&arguments),
         #[cfg(feature = "plot")]
         Command::Plot(arguments) => plot::run(&arguments),
+        Command::Rules(arguments) => rules::run(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),

@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use crate::sensor::{Acceptance, Aperture, Sensor};
 use crate::source::{Emitter, Source};
 
-pub(super) const CHOICE: Choice =
+pub(in crate::plan) const CHOICE: Choice =
     Choice { name: "closed_form", sentence: "the direct light of an unobstructed source has a formula", apply };
 
 /// What is known about the direct light of an unobstructed source.

@@ -8,7 +8,7 @@ use crate::plan::sight::Shafts;
 use crate::plan::{Narrowing, Plan, Transport, Visibility};
 use crate::scene::Scene;
 
-pub(super) const RULE: Rule = Rule { name: "nothing_blocks", sentence: "nothing can stand between source and aperture", apply };
+pub(in crate::plan) const RULE: Rule = Rule { name: "nothing_blocks", sentence: "nothing can stand between source and aperture", apply };
 
 fn apply(scene: &Scene, plan: &mut Plan) {
     let shafts: Vec<Shafts> = scene.instruments.iter().map(|i| Shafts::new(scene, i)).collect();
