@@ -33,6 +33,7 @@ mod job;
 pub mod journal;
 mod lanes;
 mod light;
+mod near_light;
 mod paths;
 mod receiver;
 pub mod run;

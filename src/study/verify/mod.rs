@@ -66,7 +66,6 @@ pub const WAITING: &[(&str, &str)] = &[
     ("g3a.cavity", "surfaces that emit by their temperature and emissivity are not in scenes yet"),
     ("g3b.plates-E1", "plates without end are no shape of a scene"),
     ("g3b.plates-mid", "plates without end are no shape of a scene"),
-    ("g3d.cube-wall_mean", "known defect: where an area that is read touches a surface that emits, samples state too small an uncertainty"),
     ("g3d.duct-bottom_mean", "a duct without end is no shape of a scene"),
     ("g3d.duct-top_mean", "a duct without end is no shape of a scene"),
     ("g3d.duct-side_mean", "a duct without end is no shape of a scene"),
