@@ -122,6 +122,7 @@ fn laws() -> Vec<Law> {
             &[("meter", 0, "E_v", 1.01853 * 0.75f64.sqrt() * 1e9 * PI * 1.784_124_116_152_77e-5f64.powi(2))],
         ),
         law("penumbra.ron", [16384, 16384], &[("meter", 0, "E_v", half_hidden_panel())]),
+        law("unseen-lamps.ron", [16384, 16384], &[("meter", 0, "E_v", half_hidden_panel())]),
         law("light-traps.ron", [1024, 4096], &[("meter", 0, "E_v", 2000.0 * PI * 0.01 / 4.01)]),
         law(
             "stray-lamp.ron",

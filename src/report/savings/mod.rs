@@ -13,10 +13,10 @@ mod json;
 mod markdown;
 mod text;
 
-pub use csv::to_csv;
-pub use json::to_json;
-pub use markdown::to_markdown;
-pub use text::to_text;
+pub use self::csv::to_csv;
+pub use self::json::to_json;
+pub use self::markdown::to_markdown;
+pub use self::text::to_text;
 
 use crate::study::savings::{SavingsOptions, SceneSavings};
 
