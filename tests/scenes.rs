@@ -25,6 +25,7 @@ use etendue::measurement::{Measurement, Reading, measure};
 use etendue::metrology::{Budget, BudgetRow};
 use etendue::observer::{AlphaOpic, Individual};
 use etendue::plan::{Plan, PlanOptions};
+use etendue::quantity::air::wavelength_in_vacuum_nm;
 use etendue::report::json::to_json;
 use etendue::scene::{Scene, read_scene};
 
@@ -103,6 +104,20 @@ fn laws() -> Vec<Law> {
                 ("open meter", 0, "E_v", 2.0 * 683.002 * 0.235_334_4),
                 ("behind a blue filter", 0, "E_v", 0.0),
                 ("behind a neutral filter", 0, "E_v", 0.2 * 683.002 * 0.235_334_4),
+            ],
+        ),
+        law(
+            "flat-field.ron",
+            [1024, 16384],
+            &[
+                ("pixel", 0, "E_e", 3.0 * PI / 257.0),
+                // µmol/J of 525 nm in air: λ_vac/(h c N_A).
+                (
+                    "pixel",
+                    0,
+                    "E_p",
+                    3.0 * PI / 257.0 * wavelength_in_vacuum_nm(525.0) * 1e-3 / (6.626_070_15e-34 * 299_792_458.0 * 6.022_140_76e23),
+                ),
             ],
         ),
         law(
@@ -360,6 +375,7 @@ fn what_is_left_out_is_not_done() {
         "ideal-integrating-sphere.ron",
         "laser-line.ron",
         "narrow-acceptance.ron",
+        "flat-field.ron",
         "eye-on-a-display.ron",
     ] {
         assert_eq!(read(&scene(file), false, 1024, 0).counters, Counters::default(), "{file}");

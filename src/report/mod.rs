@@ -12,11 +12,16 @@
 //! | `verify/` | what became of reference cases, as text, JSON, CSV and a page of HTML |
 //! | `savings/` | what each rule of the plan saves, in the same three forms and as Markdown |
 //! | `stability/` | sweeps of numerical stability |
+//! | `emva/` | figures of EMVA 1288 as text and JSON, descriptors of frames |
+//! | `image/` | frames as PNG, TIFF, NPY and EXR (feature `image`) |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
 pub mod convergence;
 pub mod coverage;
 pub mod csv;
+pub mod emva;
+#[cfg(feature = "image")]
+pub mod image;
 pub mod json;
 pub mod lecture;
 #[cfg(feature = "plot")]

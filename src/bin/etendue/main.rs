@@ -21,6 +21,8 @@ mod list;
 mod measure;
 mod merge;
 mod output;
+#[cfg(feature = "image")]
+mod photon_transfer;
 #[cfg(feature = "plot")]
 mod plot;
 mod processor_time;
@@ -63,6 +65,9 @@ enum Command {
     Merge(merge::Arguments),
     /// Measure again what a file of readings says, and tell whether the bits agree.
     Repeat(repeat::Arguments),
+    /// Take frames of a camera pixel in a flat field, and measure the figures of EMVA 1288 from them.
+    #[cfg(feature = "image")]
+    PhotonTransfer(photon_transfer::Arguments),
     /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
     #[cfg(feature = "plot")]
     Plot(plot::Arguments),
@@ -95,6 +100,8 @@ fn main() -> ExitCode {
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Repeat(arguments) => repeat::run(&arguments),
+        #[cfg(feature = "image")]
+        Command::PhotonTransfer(arguments) => photon_transfer::run(&arguments),
         #[cfg(feature = "plot")]
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Rules(arguments) => rules::run(&arguments),
