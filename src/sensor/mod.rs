@@ -16,7 +16,7 @@ pub mod channel;
 
 pub use acceptance::{Acceptance, DirectionalResponse};
 pub use aperture::Aperture;
-pub use channel::Channel;
+pub use channel::{Channel, ResponsivityKind, ResponsivityUncertainty, TemperatureCoefficient, Weighting};
 
 /// A sensor, without a place in a scene.
 #[derive(Clone, Debug)]
@@ -29,4 +29,12 @@ pub struct Sensor {
     pub acceptance: Acceptance,
     /// What is read off, at least one.
     pub channels: Vec<Channel>,
+}
+
+impl Sensor {
+    /// A sensor of its parts; at least one channel is needed to read anything.
+    #[must_use]
+    pub fn new(title: impl Into<String>, aperture: Aperture, acceptance: Acceptance, channels: Vec<Channel>) -> Sensor {
+        Sensor { title: title.into(), aperture, acceptance, channels }
+    }
 }
