@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `text.rs` | a table for a person |
+//! | `ideal.rs` | what ideal instruments would indicate, a part of that table |
 //! | `json.rs` | everything, for programs; numbers keep all their digits |
 //! | `csv.rs` | a row a reading, for spreadsheets |
 //! | `convergence/` | error against run time, in the same three forms; reads references |
@@ -14,6 +15,7 @@
 
 pub mod convergence;
 pub mod csv;
+mod ideal;
 pub mod json;
 pub mod lecture;
 #[cfg(feature = "plot")]
