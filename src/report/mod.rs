@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `text.rs` | a table for a person |
+//! | `ideal.rs` | what ideal instruments would indicate, a part of that table |
 //! | `json.rs` | everything, for programs; numbers keep all their digits |
 //! | `csv.rs` | a row a reading, for spreadsheets |
 //! | `convergence/` | error against run time, in the same three forms; reads references |
@@ -22,6 +23,7 @@ pub mod csv;
 pub mod emva;
 #[cfg(feature = "image")]
 pub mod image;
+mod ideal;
 pub mod json;
 pub mod lecture;
 #[cfg(feature = "plot")]

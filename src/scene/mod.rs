@@ -15,6 +15,7 @@
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
 //! | `pixel_reader` | camera pixels |
+//! | `responsivity_reader`, `readout_reader` | their curves with units and uncertainties, their electronics |
 //! | `reader` | the scene as a whole |
 //! | `checks` | what only the scene as a whole can show |
 
@@ -37,6 +38,8 @@ mod pixel_reader;
 mod placement;
 mod reader;
 mod reading;
+mod readout_reader;
+mod responsivity_reader;
 mod sensor_reader;
 mod shape_reader;
 mod source_reader;

@@ -10,17 +10,20 @@
 //! | acceptance | `acceptance.rs` | from which directions, and how well: `R(ω)` |
 //! | pixel | `pixel/`, `noise/` | charge, gain, noise and digital numbers of a camera pixel |
 //! | channel | `channel.rs` | how well each wavelength counts, `s(λ)`, and what is read off |
+//! | readout | `photodiode.rs` | from a photocurrent to what is displayed: noise, range, steps |
 
 pub mod acceptance;
 pub mod aperture;
 pub mod channel;
 pub mod noise;
+pub mod photodiode;
 pub mod pixel;
 
 pub use acceptance::{Acceptance, DirectionalResponse};
 pub use aperture::Aperture;
-pub use channel::Channel;
+pub use channel::{Channel, ResponsivityKind, ResponsivityUncertainty, TemperatureCoefficient, Weighting};
 pub use noise::Exposure;
+pub use photodiode::Photodiode;
 pub use pixel::{LinearModel, Pixel};
 
 /// A sensor, without a place in a scene.
@@ -34,4 +37,28 @@ pub struct Sensor {
     pub acceptance: Acceptance,
     /// What is read off, at least one.
     pub channels: Vec<Channel>,
+    /// Electronics behind the channels; without one a channel indicates what it collects.
+    pub readout: Option<Photodiode>,
+}
+
+impl Sensor {
+    /// A sensor of its parts without a readout; at least one channel is needed to read anything.
+    #[must_use]
+    pub fn new(title: impl Into<String>, aperture: Aperture, acceptance: Acceptance, channels: Vec<Channel>) -> Sensor {
+        Sensor { title: title.into(), aperture, acceptance, channels, readout: None }
+    }
+
+    /// Photocurrent of one unit of a channel's indication, A.
+    ///
+    /// `None` where there is none: the responsivity is not in A/W or the aperture is a point, and the readout does not state it.
+    #[must_use]
+    pub fn photocurrent_per_unit_a(&self, channel: &Channel) -> Option<f64> {
+        if let Some(stated) = self.readout.as_ref().and_then(|readout| readout.current_a_per_unit) {
+            return Some(stated);
+        }
+        // Temperature changes current and indication alike.
+        let unheated = Channel { temperature: None, ..channel.clone() };
+        let per_irradiance = unheated.indication_per_irradiance(&self.aperture, &self.acceptance)?;
+        channel.kind.is_absolute().then_some(self.aperture.area_m2()? / per_irradiance)
+    }
 }
