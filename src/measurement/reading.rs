@@ -197,10 +197,8 @@ fn read(
         } else {
             let mut reasons = left_out.reasons.clone();
             if estimate.exact.terms + estimate.sampled.len() > 0 {
-                reasons.push(
-                    "in this pose nothing that is computed reaches the sensor from above its horizon, in its acceptance and in its band"
-                        .to_owned(),
-                );
+                let from = if sensor.acceptance.has_horizon() { " from above its horizon, in its acceptance and" } else { "" };
+                reasons.push(format!("in this pose nothing that is computed reaches the sensor{from} in its band"));
             } else if reasons.is_empty() {
                 reasons.push("the scene has no source".to_owned());
             }

@@ -19,6 +19,7 @@
 //! are counted at the wavelength in vacuum, n(λ) λ: files give wavelengths in air. Several channels at once:
 //! `observer_reader.rs`.
 
+use super::acceptance_reader::words_of_head;
 use super::adjustment::{System, read_luminous_scale, read_optional_adjustment};
 use super::decode::Value;
 use super::document::{Body, Kind};
@@ -76,7 +77,9 @@ pub(super) fn read_channel(
     if reads.name() == "PhotonIrradiance" {
         responsivity = Factor::Product(vec![responsivity, photons_per_joule(WavelengthsIn::StandardAir)]);
     }
-    Some(Channel { name: name.into(), responsivity, reads: found.reads, scale: found.scale })
+    // What the file names itself keeps its name.
+    let named = if reads.name() == "Weighted" { found.reads } else { words_of_head(&found.reads, acceptance.and_then(Acceptance::head)) };
+    Some(Channel { name: name.into(), responsivity, reads: named, scale: found.scale })
 }
 
 /// A responsivity that is nowhere negative and somewhere above zero.
@@ -172,6 +175,15 @@ pub(super) fn scotopic_illuminance() -> Measurand {
 
 /// Notes a problem if the acceptance of a channel that reads a radiance has no solid angle.
 pub(super) fn has_solid_angle(value: &Value, acceptance: Option<&Acceptance>, reading: &mut Reading) -> bool {
+    if let Some(head) = acceptance.and_then(Acceptance::head) {
+        value.problem_at(
+            &value.name_span(),
+            &mut reading.problems,
+            format!("`{}` is seen in a direction, but a {} receptor sees all round", value.name(), head.name()),
+            "read `Illuminance` or `Irradiance`, or give an acceptance with a direction, such as `Cone(half_angle_deg: 0.5)`",
+        );
+        return false;
+    }
     if acceptance.is_none_or(|a| a.projected_solid_angle_sr() > 0.0) {
         return true;
     }
