@@ -57,6 +57,7 @@ fn source(shape: &str, place: DVec3, facing: DVec3) -> String {
             let corners: Vec<String> = corners.iter().map(|(a, b)| at(place + *a * x + *b * y)).collect();
             format!(r#"(name: "s", shape: Polygon([{}]), seen_from: Both, {rest})"#, corners.join(", "))
         }
+        "Sphere(0.4)" => format!(r#"(name: "s", shape: {shape}, at: {}, {rest})"#, at(place)),
         _ => format!(r#"(name: "s", shape: {shape}, at: {}, facing: {}, {rest})"#, at(place), at(facing)),
     }
 }
