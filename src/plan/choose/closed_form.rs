@@ -24,6 +24,10 @@ pub enum Formula {
 /// What is known about the unobstructed direct light of a source at a sensor.
 #[must_use]
 pub fn formula(scene: &Scene, sensor: &Sensor, source: &Source) -> Formula {
+    // Each point of a pupil sees the field from elsewhere; only what fills every field is known.
+    if matches!(sensor.acceptance, Acceptance::Spot(_)) {
+        return if matches!(source.emitter, Emitter::Environment) { Formula::Exact } else { Formula::Unknown };
+    }
     let symmetric = match &sensor.acceptance {
         Acceptance::Directional(table) => table.rotationally_symmetric().is_some(),
         _ => true,

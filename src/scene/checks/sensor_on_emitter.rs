@@ -1,4 +1,5 @@
 //! A sensor must not lie on an emitting surface and look into it: the distance between them is zero, and no reading exists.
+//! A head that sees all round looks into it whichever way it faces.
 //!
 //! The centre of the aperture counts as lying on a rectangle, polygon, disc or sphere within a share of 1e-9 of its size. Meshes are
 //! not looked at.
@@ -16,13 +17,14 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
     for (instrument, place) in scene.instruments.iter().zip(&places.instruments) {
         let poses = &instrument.poses;
         let (low, high) = instrument.bounds();
+        let all_round = !instrument.sensor.acceptance.has_horizon();
         for source in &scene.sources {
             let Emitter::Area { elements } = &source.emitter else { continue };
             let touches = |&(element, side): &(usize, Side)| {
                 let shape = &scene.elements[element].shape;
                 let (centre, radius_m) = shape.bounding_sphere();
                 let near = (centre.clamp(low, high) - centre).length() <= radius_m * (1.0 + SAME);
-                if near { poses.iter().position(|pose| lies_on(pose, shape, side)) } else { None }
+                if near { poses.iter().position(|pose| lies_on(pose, shape, side, all_round)) } else { None }
             };
             if let Some(index) = elements.iter().find_map(touches) {
                 let which =
@@ -39,7 +41,7 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
     }
 }
 
-fn lies_on(pose: &Pose, shape: &Shape, side: Side) -> bool {
+fn lies_on(pose: &Pose, shape: &Shape, side: Side, all_round: bool) -> bool {
     let (distance, size, normal) = match shape {
         Shape::Rectangle(r) => ((pose.at - nearest_point(r, pose.at)).length(), r.half_u.length().hypot(r.half_v.length()), r.normal()),
         Shape::Polygon(p) => ((pose.at - p.nearest_point(pose.at)).length(), p.bounding_sphere().1, p.normal()),
@@ -55,5 +57,5 @@ fn lies_on(pose: &Pose, shape: &Shape, side: Side) -> bool {
         }
         Shape::Mesh(_) => return false,
     };
-    distance <= SAME * size && pose.normal.dot(normal) * side.sign() < 0.0
+    distance <= SAME * size && (all_round || pose.normal.dot(normal) * side.sign() < 0.0)
 }
