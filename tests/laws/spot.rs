@@ -46,8 +46,8 @@ proptest! {
 /// A disc in the plane of focus, smaller than the field: its étendue over that of the field.
 #[test]
 fn discs_in_focus_read_their_share_of_the_etendue() {
-    let (a, f, field_deg) = (0.02, 0.8, 3.0);
-    let r0 = f * (0.5 * field_deg as f64).to_radians().tan();
+    let (a, f, field_deg): (f64, f64, f64) = (0.02, 0.8, 3.0);
+    let r0 = f * (0.5 * field_deg).to_radians().tan();
     for share in [0.05, 0.3, 0.9] {
         let disc = format!("shape: Disc({:e}), at: (0, 0, {f}), facing: (0, 0, -1)", share * r0);
         let found = uncertain(&before(&disc, &spot(1e3 * a, field_deg, f, 0.0, "Radiance")), &samples(1 << 14), 5)[0];
