@@ -186,8 +186,7 @@ fn every_form_has_every_row_and_names_what_is_wrong() {
     assert_eq!(parsed["scenes"][0]["rows"][1]["verdict"], "TOO LOW");
     assert_eq!(parsed["scenes"][0]["rows"].as_array().unwrap().len(), 2);
     for text in [to_text(&scenes), to_markdown(&scenes, "etendue coverage")] {
-        for part in ["88.4 % of 1000", "92.9 %", "TOO LOW", "m, E", "1 readings are exact", "2 rows: 1 hold, 1 too low", "100.0 % of 4"]
-        {
+        for part in ["88.4 % of 1000", "92.9 %", "TOO LOW", "m, E", "1 readings are exact", "2 rows: 1 hold, 1 too low", "100.0 % of 4"] {
             assert!(text.contains(part), "no `{part}` in {text}");
         }
     }

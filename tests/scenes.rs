@@ -130,6 +130,17 @@ fn laws() -> Vec<Law> {
                 ("filled", 1, "L_e", 1000.0),
             ],
         ),
+        law("heads-that-see-all-round.ron", [1024, 16384], &heads()),
+        law(
+            "luminance-meter.ron",
+            [4096, 4096],
+            &[
+                ("filled", 0, "L_v", 1000.0),
+                ("out of focus", 0, "L_v", 1000.0),
+                ("not filled", 0, "L_v", 1000.0 * share_of_spot(0.004)),
+                ("half filled", 0, "L_v", 500.0),
+            ],
+        ),
         law("eye-on-a-display.ron", [1024, 4096], &display()),
         law(
             "tiny-source.ron",
@@ -162,6 +173,33 @@ fn laws() -> Vec<Law> {
             near: vec![("in the shade", 0, "E_v", 558.0, 0.006)],
             ..law("sun-and-window.ron", [65536, 65536], &[])
         },
+    ]
+}
+
+/// A disc in the plane of focus over the measured field of 1° at 1 m, its edge 5 % wide, through a pupil of 10 mm: étendues of coaxial discs,
+/// that of the field by the midpoint rule over its edge.
+fn share_of_spot(radius_m: f64) -> f64 {
+    let etendue = |r: f64| {
+        let p = 1e-4 + r * r + 1.0;
+        r * r / (p + (p * p - 4e-4 * r * r).sqrt())
+    };
+    let (field, n) = (0.5f64.to_radians().tan(), 2000);
+    let at = |k: i32| field * (0.975 + 0.05 * (f64::from(k) + 0.5) / f64::from(n));
+    etendue(radius_m) / ((0..n).map(|k| etendue(at(k))).sum::<f64>() / f64::from(n))
+}
+
+/// Heads 2 m from a lamp of 400 cd that is 30° below the horizon, below a panel of 1000 cd/m² that fills 30° about the zenith.
+fn heads() -> Vec<(&'static str, usize, &'static str, f64)> {
+    let (a, lamp, l) = (PI / 6.0, 100.0, 1000.0);
+    let panel = (2.0 * PI * (1.0 - a.cos()), PI * a.sin().powi(2), a - a.sin() * a.cos());
+    let sine = (PI / 3.0).sin();
+    vec![
+        ("spherical", 0, "E_v,o", lamp + l * panel.0),
+        ("hemispherical", 0, "E_v,hs", 0.25 * (lamp * (1.0 - 0.5) + l * (panel.0 + panel.1))),
+        ("cylindrical", 0, "E_v,z", lamp * sine / PI + l * panel.2),
+        ("semicylindrical", 0, "E_v,sz", 2.0 * lamp * sine / PI + l * panel.2),
+        ("semicylindrical", 1, "E_v,sz", l * panel.2),
+        ("semicylindrical", 2, "E_v,sz", lamp * sine / PI + l * panel.2),
     ]
 }
 

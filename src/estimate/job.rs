@@ -88,8 +88,11 @@ impl Job<'_> {
     /// A first look at what is clear, with numbers of its own, so that the estimate stays unbiased.
     pub(super) fn pilot(&self, world: &World, receiver: &Receiver<'_>, stream: Stream) -> (f64, Counters) {
         match self {
-            Job::Source(job) => direct::pilot(job, world, receiver, stream),
-            Job::Sky { .. } => sky::pilot(world, receiver, stream),
+            Job::Source(job) => match job.looked_for(receiver) {
+                Some(lit) => sky::pilot(world, Some(lit), receiver, stream),
+                None => direct::pilot(job, world, receiver, stream),
+            },
+            Job::Sky { .. } => sky::pilot(world, None, receiver, stream),
             Job::Paths { .. } => (0.0, Counters::default()),
         }
     }
@@ -112,8 +115,11 @@ impl Job<'_> {
         progress: &Progress,
     ) -> Result<Piece, EstimateError> {
         match self {
-            Job::Source(job) => Ok(direct::sample(job, world, receiver, stream, (first, count), progress.share_clear, progress.known)),
-            Job::Sky { .. } => Ok(sky::sample(world, receiver, stream, (first, count), progress.share_clear)),
+            Job::Source(job) => Ok(match job.looked_for(receiver) {
+                Some(lit) => sky::sample(world, Some(lit), receiver, stream, (first, count), progress.share_clear),
+                None => direct::sample(job, world, receiver, stream, (first, count), progress.share_clear, progress.known),
+            }),
+            Job::Sky { .. } => Ok(sky::sample(world, None, receiver, stream, (first, count), progress.share_clear)),
             Job::Paths { scene, .. } => {
                 let out = trace(scene, receiver, stream, first, count);
                 if out.endless {

@@ -21,9 +21,9 @@ pub mod convergence;
 pub mod coverage;
 pub mod csv;
 pub mod emva;
+mod ideal;
 #[cfg(feature = "image")]
 pub mod image;
-mod ideal;
 pub mod json;
 pub mod lecture;
 #[cfg(feature = "plot")]

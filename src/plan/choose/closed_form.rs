@@ -24,9 +24,13 @@ pub enum Formula {
 /// What is known about the unobstructed direct light of a source at a sensor.
 #[must_use]
 pub fn formula(scene: &Scene, sensor: &Sensor, source: &Source) -> Formula {
+    // Each point of a pupil sees the field from elsewhere; only what fills every field is known.
+    if matches!(sensor.acceptance, Acceptance::Spot(_)) {
+        return if matches!(source.emitter, Emitter::Environment) { Formula::Exact } else { Formula::Unknown };
+    }
     let symmetric = match &sensor.acceptance {
-        Acceptance::Cosine | Acceptance::Cone { .. } => true,
         Acceptance::Directional(table) => table.rotationally_symmetric().is_some(),
+        _ => true,
     };
     let from_point = match &source.emitter {
         Emitter::Environment | Emitter::Directional { .. } => return Formula::Exact,
@@ -39,7 +43,7 @@ pub fn formula(scene: &Scene, sensor: &Sensor, source: &Source) -> Formula {
             });
             match (&sensor.acceptance, known && symmetric) {
                 (_, false) => Formula::Unknown,
-                (Acceptance::Directional(_), true) => Formula::Summed,
+                (Acceptance::Directional(_) | Acceptance::Cylindrical | Acceptance::Semicylindrical, true) => Formula::Summed,
                 (_, true) => Formula::Exact,
             }
         }

@@ -1,4 +1,5 @@
 //! A sensor must not lie on an emitting surface and look into it: the distance between them is zero, and no reading exists.
+//! A head that sees all round looks into it whichever way it faces.
 //!
 //! The centre of the aperture counts as lying on a rectangle, polygon, disc or sphere within a share of 1e-9 of its size; of an aperture
 //! that faces a flat emitter squarely, so do its corners and the middles of its sides. Meshes are not looked at.
@@ -18,6 +19,7 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
     for (instrument, place) in scene.instruments.iter().zip(&places.instruments) {
         let (poses, aperture) = (&instrument.poses, instrument.sensor.aperture);
         let (low, high) = instrument.bounds();
+        let all_round = !instrument.sensor.acceptance.has_horizon();
         for source in &scene.sources {
             let Emitter::Area { elements } = &source.emitter else { continue };
             let touches = |&(element, side): &(usize, Side)| {
@@ -26,7 +28,7 @@ pub(super) fn check(scene: &Scene, places: &Places, problems: &mut Problems) {
                 let reach_m = radius_m * (1.0 + SAME) + aperture.radius_m();
                 let near = (centre.clamp(low, high) - centre).length() <= reach_m;
                 if near {
-                    poses.iter().position(|pose| lies_on(pose, pose.at, shape, side) || overlaps(pose, aperture, shape, side))
+                    poses.iter().position(|pose| lies_on(pose, pose.at, shape, side, all_round) || overlaps(pose, aperture, shape, side))
                 } else {
                     None
                 }
@@ -59,10 +61,10 @@ fn overlaps(pose: &Pose, aperture: Aperture, shape: &Shape, side: Side) -> bool 
     };
     let (u, v) = (WITHIN * u * pose.x_axis, WITHIN * v * pose.y_axis());
     let rim = [(1.0, 0.0), (corner, corner), (0.0, 1.0), (-corner, corner)].map(|(a, b)| a * u + b * v);
-    squarely && rim.iter().any(|&r| lies_on(pose, pose.at + r, shape, side) || lies_on(pose, pose.at - r, shape, side))
+    squarely && rim.iter().any(|&r| lies_on(pose, pose.at + r, shape, side, false) || lies_on(pose, pose.at - r, shape, side, false))
 }
 
-fn lies_on(pose: &Pose, at: DVec3, shape: &Shape, side: Side) -> bool {
+fn lies_on(pose: &Pose, at: DVec3, shape: &Shape, side: Side, all_round: bool) -> bool {
     let (distance, size, normal) = match shape {
         Shape::Rectangle(r) => ((at - nearest_point(r, at)).length(), r.half_u.length().hypot(r.half_v.length()), r.normal()),
         Shape::Polygon(p) => ((at - p.nearest_point(at)).length(), p.bounding_sphere().1, p.normal()),
@@ -78,5 +80,5 @@ fn lies_on(pose: &Pose, at: DVec3, shape: &Shape, side: Side) -> bool {
         }
         Shape::Mesh(_) => return false,
     };
-    distance <= SAME * size && pose.normal.dot(normal) * side.sign() < 0.0
+    distance <= SAME * size && (all_round || pose.normal.dot(normal) * side.sign() < 0.0)
 }
