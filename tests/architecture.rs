@@ -44,6 +44,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/verify/json.rs",
             "src/report/convergence/json.rs",
             "src/report/stability/json.rs",
+            "src/report/datasheet/json.rs",
         ],
     ),
     (
@@ -55,6 +56,7 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/report/verify/json.rs",
             "src/report/convergence/json.rs",
             "src/report/stability/json.rs",
+            "src/report/datasheet/json.rs",
             "src/study/verify/",
         ],
     ),

@@ -1,4 +1,4 @@
-//! Quantiles of the normal, Student's t and χ² distributions.
+//! Quantiles of the normal, Student's t and χ² distributions, and the probability below a normal one.
 //!
 //! ```text
 //! normal   Φ(z) = p            z = −√2 erfc⁻¹(2p)
@@ -28,6 +28,12 @@ const ITERATIONS: usize = 200;
 
 fn is_open_probability(p: f64) -> bool {
     p > 0.0 && p < 1.0
+}
+
+/// The probability Φ(z) that a standard normal variable stays below `z`; NaN for NaN.
+/// `normal_probability(1.959964)` is 0.975.
+pub fn normal_probability(z: f64) -> f64 {
+    0.5 * erf::erfc(-z / SQRT_2)
 }
 
 /// The `z` that a standard normal variable stays below with probability `p`.

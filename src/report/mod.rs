@@ -6,6 +6,7 @@
 //! | `json.rs` | everything, for programs; numbers keep all their digits |
 //! | `csv.rs` | a row a reading, for spreadsheets |
 //! | `convergence/` | error against run time, in the same three forms; reads references |
+//! | `datasheet/` | data sheets of sensors, as text, JSON and charts |
 //! | `lecture/` | equations of the lecture and the table of quantities, as text and JSON |
 //! | `spectrum/` | the quantities of one spectrum, in the same three forms |
 //! | `verify/` | what became of reference cases, as text, JSON, CSV and a page of HTML |
@@ -14,6 +15,7 @@
 
 pub mod convergence;
 pub mod csv;
+pub mod datasheet;
 pub mod json;
 pub mod lecture;
 #[cfg(feature = "plot")]

@@ -222,3 +222,13 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn normal_probabilities_and_quantiles_undo_each_other() {
+    for p in [1e-12, 1e-3, 0.2, 0.5, 0.8, 0.999] {
+        let z = normal_quantile(p).unwrap();
+        assert!((normal_probability(z) / p - 1.0).abs() < 1e-9, "{p}");
+    }
+    assert_eq!((normal_probability(f64::INFINITY), normal_probability(f64::NEG_INFINITY)), (1.0, 0.0));
+    assert!(normal_probability(f64::NAN).is_nan());
+}

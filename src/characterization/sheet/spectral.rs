@@ -1,0 +1,205 @@
+//! Indices of the spectral responsivity, by both routes.
+//!
+//! | index | computed | measured |
+//! |---|---|---|
+//! | f1′ | exact integrals of the curve | the same on the straight lines through the readings of the monochromator |
+//! | u, r | exact integrals | a lamp with and without filter, sensor and ideal meter |
+//! | λ̄ | exact integrals | straight lines through the readings |
+//! | F of a lamp | exact integrals | sensor and ideal meter in turn before the lamp |
+//! | f3 | 0 by the equation of a sensor without readout | one lamp over decades of strength |
+
+use super::{Absent, ChannelSheet, Index, Lamp, Responsivity, SheetError, Target};
+use crate::characterization::bench::Bench;
+use crate::characterization::bench::monochromator::Spectrogram;
+use crate::characterization::bench::sampling::Sampled;
+use crate::characterization::class_limits::limits;
+use crate::characterization::out_of_band::{Arrangement, response, share_behind};
+use crate::characterization::spectral_mismatch::{MismatchError, Wavelengths, correction_factor, mean_wavelength_nm, mismatch_index};
+use crate::characterization::{Figure, linearity};
+use crate::sensor::{Channel, Sensor};
+use crate::spectrum::{Density, Factor, library};
+
+/// Lamps of the table of mismatch factors, by their names in the library.
+pub const LAMPS: [&str; 24] = [
+    "A", "D65", "FL1", "FL2", "FL3", "FL4", "FL5", "FL6", "FL7", "FL8", "FL9", "FL10", "FL11", "FL12", "HP1", "LED-B1", "LED-B2", "LED-B3",
+    "LED-B4", "LED-B5", "LED-BH1", "LED-RGB1", "LED-V1", "LED-V2",
+];
+
+/// Wavelengths that the monochromator covers at least, and at most, nm.
+const RANGE_NM: (f64, f64) = (300.0, 1100.0);
+const WIDEST_NM: (f64, f64) = (200.0, 2500.0);
+/// Strengths of the attenuator over that of reference: seven decades.
+const STRENGTHS: [f64; 8] = [1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3];
+const PERCENT: f64 = 100.0;
+
+/// The range of the monochromator for a sensor, whole nm.
+pub(super) fn range_nm(sensor: &Sensor) -> (f64, f64) {
+    let hulls = sensor.channels.iter().filter_map(|channel| channel.responsivity.support().hull());
+    let inside = |nm: f64| (WIDEST_NM.0..=WIDEST_NM.1).contains(&nm);
+    hulls.fold(RANGE_NM, |(low, high), (from, to)| {
+        // What is unbounded says nothing about where to look.
+        let low = if inside(from) { low.min(from.floor()) } else { low };
+        (low, if inside(to) { high.max(to.ceil()) } else { high })
+    })
+}
+
+/// A spectrum that a channel sees: A, or the same at every wavelength.
+pub(super) fn seen_by(channel: &Channel) -> Result<Density, SheetError> {
+    let a = Density::illuminant_a();
+    if a.integral(&[&channel.responsivity]) > 0.0 { Ok(a) } else { Ok(Density::flat(WIDEST_NM.0, WIDEST_NM.1, 1.0)?) }
+}
+
+/// Indices of one channel.
+pub(super) fn characterise(bench: &Bench<'_>, index: usize, spectrogram: &Spectrogram) -> Result<ChannelSheet, SheetError> {
+    let channel = &bench.sensor().channels[index];
+    let told = |error: MismatchError| SheetError::Spectral { channel: channel.name.clone(), error };
+    let subject = Subject { bench, index, channel, sampled: Sampled::responsivity(spectrogram, index)? };
+    let target = Target::of(&channel.reads);
+    let (mut indices, mut lamps, mut absent) = (Vec::new(), Vec::new(), Vec::new());
+    match &target {
+        Some(target) => {
+            indices.push(subject.mismatch(target).map_err(told)?);
+            if target.photopic {
+                indices.push(subject.behind_filter("u", "UV response", target, &Arrangement::ultraviolet()?, told)?);
+                indices.push(subject.behind_filter("r", "IR response", target, &Arrangement::infrared()?, told)?);
+            }
+            lamps = subject.lamps(target, told)?;
+        }
+        None => {
+            let why = format!("{} does not say what the channel is meant to weigh with", channel.reads.name());
+            absent.extend(["f1′", "F"].map(|symbol| Absent { symbol, why: why.clone() }));
+        }
+    }
+    indices.push(subject.linearity(target.as_ref())?);
+    indices.push(subject.mean_wavelength(target.as_ref()).map_err(told)?);
+    absent.push(Absent { symbol: "f11", why: "the sensor has no readout with ranges".to_owned() });
+    Ok(ChannelSheet {
+        name: channel.name.clone(),
+        reads: channel.reads.clone(),
+        target,
+        indices,
+        lamps,
+        absent,
+        responsivity: Responsivity { wavelengths_nm: spectrogram.wavelengths_nm.clone(), readings: spectrogram.readings[index].clone() },
+        class: None,
+        total: None,
+    })
+}
+
+/// A channel on the bench.
+struct Subject<'a> {
+    bench: &'a Bench<'a>,
+    index: usize,
+    channel: &'a Channel,
+    sampled: Sampled,
+}
+
+impl Subject<'_> {
+    fn mismatch(&self, target: &Target) -> Result<Index, MismatchError> {
+        let (from_nm, to_nm) = target.range_nm;
+        let over = Wavelengths::Integral { from_nm, to_nm };
+        let computed = mismatch_index(&self.channel.responsivity, &target.curve, &target.calibration, over)?;
+        let measured = self.sampled.mismatch(&target.curve, &target.calibration, over)?;
+        Ok(Index {
+            symbol: "f1′",
+            name: "spectral mismatch",
+            unit: "%",
+            computed: Figure::exact(computed, 1.0).scaled(PERCENT),
+            measured: measured.scaled(PERCENT),
+            limits: if target.photopic { limits("f1_prime") } else { None },
+            conditions: format!("against {}, adjusted with {}, {from_nm} nm to {to_nm} nm", target.name, target.calibration_name),
+        })
+    }
+
+    fn behind_filter(
+        &self,
+        symbol: &'static str,
+        name: &'static str,
+        target: &Target,
+        arrangement: &Arrangement,
+        told: impl Fn(MismatchError) -> SheetError,
+    ) -> Result<Index, SheetError> {
+        let responsivity = &self.channel.responsivity;
+        let computed = response(responsivity, &target.curve, arrangement).map_err(&told)?;
+        let share = share_behind(responsivity, arrangement).map_err(&told)?;
+        let own = self.bench.share_behind(self.index, &arrangement.source, &arrangement.filter)?;
+        let ideal = self.bench.share_of_standard(&target.curve, &arrangement.source, &arrangement.filter)?;
+        let u = own.standard_uncertainty.hypot(ideal.standard_uncertainty);
+        let measured = Figure { value: (own.value - ideal.value).abs(), standard_uncertainty: u };
+        Ok(Index {
+            symbol,
+            name,
+            unit: "%",
+            computed: Figure::exact(computed, share).scaled(PERCENT),
+            measured: measured.scaled(PERCENT),
+            limits: limits(symbol),
+            conditions: arrangement.words.clone(),
+        })
+    }
+
+    fn lamps(&self, target: &Target, told: impl Fn(MismatchError) -> SheetError) -> Result<Vec<Lamp>, SheetError> {
+        let adjusted = self.bench.over_truth(self.index, &target.curve, &target.calibration)?;
+        let mut lamps = Vec::with_capacity(LAMPS.len());
+        for name in LAMPS {
+            let Ok(spectrum) = library::density(name) else { continue };
+            // A lamp without light where the target is has no mismatch.
+            let seen = |curve: &Factor| spectrum.integral(&[curve]) > 0.0;
+            if !(seen(&target.curve) && seen(&self.channel.responsivity)) {
+                continue;
+            }
+            let computed = correction_factor(&self.channel.responsivity, &target.curve, &spectrum, &target.calibration).map_err(&told)?;
+            let over = self.bench.over_truth(self.index, &target.curve, &spectrum)?;
+            let value = adjusted.value / over.value;
+            let relative = |f: &Figure| f.standard_uncertainty / f.value;
+            let measured = Figure { value, standard_uncertainty: value * relative(&adjusted).hypot(relative(&over)) };
+            lamps.push(Lamp { name: name.to_owned(), computed: Figure::exact(computed, computed), measured });
+        }
+        Ok(lamps)
+    }
+
+    fn linearity(&self, target: Option<&Target>) -> Result<Index, SheetError> {
+        let spectrum = target.map_or_else(|| seen_by(self.channel), |target| Ok(target.calibration.clone()))?;
+        let read = self.bench.attenuated(self.index, &spectrum, &STRENGTHS)?;
+        let reference = &read[4];
+        let relative = |f: &Figure| if f.value > 0.0 { f.standard_uncertainty / f.value } else { f64::INFINITY };
+        let (mut value, mut u): (f64, f64) = (0.0, 0.0);
+        for (figure, strength) in read.iter().zip(STRENGTHS) {
+            let at = |x: f64| if x == 1.0 { reference.value } else { figure.value };
+            let found = linearity::deviation(&at, strength, 1.0).unwrap_or(f64::INFINITY).abs();
+            value = value.max(found);
+            u = u.max(relative(figure).hypot(relative(reference)));
+        }
+        Ok(Index {
+            symbol: "f3",
+            name: "linearity",
+            unit: "%",
+            computed: Figure::exact(0.0, 1.0).scaled(PERCENT),
+            measured: Figure { value, standard_uncertainty: u }.scaled(PERCENT),
+            limits: if target.is_some_and(|t| t.photopic) { limits("f3") } else { None },
+            conditions: "without a readout; a lamp over seven decades of strength".to_owned(),
+        })
+    }
+
+    fn mean_wavelength(&self, target: Option<&Target>) -> Result<Index, MismatchError> {
+        let (from, to) = RANGE_NM;
+        let flat = Density::flat(from.min(WIDEST_NM.0), to.max(WIDEST_NM.1), 1.0)?;
+        let (spectrum, words) = match target {
+            Some(target) => (target.calibration.clone(), target.calibration_name),
+            None => (flat, "equal energy"),
+        };
+        // Where the monochromator was.
+        let Factor::Table(points) = &self.sampled.curve else { return Err(MismatchError::OutOfRange) };
+        let (from_nm, to_nm) = points.range_nm();
+        let spectrum = spectrum.filtered(&Factor::band(from_nm, to_nm, 1.0)?);
+        let computed = mean_wavelength_nm(&self.channel.responsivity, &spectrum)?;
+        Ok(Index {
+            symbol: "λ̄",
+            name: "mean (effective) wavelength",
+            unit: "nm",
+            computed: Figure::exact(computed, computed),
+            measured: self.sampled.mean_wavelength_nm(&spectrum)?,
+            limits: None,
+            conditions: format!("∫ S s λ dλ / ∫ S s dλ, S: {words}, {from_nm} nm to {to_nm} nm"),
+        })
+    }
+}
