@@ -80,7 +80,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
             let acceptance = Acceptance::Cone { half_angle_rad: g.number("half_angle_deg").to_radians() };
             // Light of one responsivity: the relative curve is one, the scale carries the number.
             let scale = g.number("responsivity_a_w");
-            let channel = Channel { name: "S".into(), responsivity: Factor::ONE, reads: Measurand::Photocurrent, scale };
+            let channel = Channel::new("S", Factor::ONE, Measurand::Photocurrent, scale);
             let aperture = Aperture::Disc { radius_m: g.number("radius_m") };
             let per_irradiance = channel.indication_per_irradiance(&aperture, &acceptance).ok_or("the aperture has no area")?;
             let collected = Radiance::new(g.number("radiance_w_m2_sr")) * ProjectedSolidAngle::new(acceptance.projected_solid_angle_sr());

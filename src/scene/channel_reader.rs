@@ -76,7 +76,7 @@ pub(super) fn read_channel(
     if reads.name() == "PhotonIrradiance" {
         responsivity = Factor::Product(vec![responsivity, photons_per_joule(WavelengthsIn::StandardAir)]);
     }
-    Some(Channel { name: name.into(), responsivity, reads: found.reads, scale: found.scale })
+    Some(Channel::new(name, responsivity, found.reads, found.scale))
 }
 
 /// A responsivity that is nowhere negative and somewhere above zero.

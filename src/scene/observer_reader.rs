@@ -26,7 +26,7 @@ use super::reading::Reading;
 use crate::naming::{same, suggestion};
 use crate::observer::{AlphaOpic, Cone, Cones, Efficiency, Individual, Matching, ObserverError, mesopic};
 use crate::quantity::measurand::Measurand;
-use crate::sensor::{Acceptance, Channel};
+use crate::sensor::{Acceptance, Channel, Weighting};
 use crate::spectrum::Factor;
 
 const CONES_2: &str = "cones 2 degree";
@@ -221,5 +221,6 @@ fn quantity(adjective: &str, index: &str, is_radiance: bool) -> Measurand {
 }
 
 fn channel(name: &str, responsivity: Factor, reads: Measurand, scale: f64) -> Channel {
-    Channel { name: name.into(), responsivity, reads, scale }
+    let ideal = Weighting { curve: responsivity.clone(), scale };
+    Channel::new(name, responsivity, reads, scale).with_ideal(ideal)
 }

@@ -120,7 +120,7 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
     if reading.problems.count() > before {
         return None;
     }
-    Some(Sensor { title, aperture: aperture?, acceptance: acceptance?, channels: list })
+    Some(Sensor::new(title, aperture?, acceptance?, list))
 }
 
 /// A length given in one of two units.

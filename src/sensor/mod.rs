@@ -9,14 +9,17 @@
 //! | aperture | `aperture.rs` | where light enters: `A` |
 //! | acceptance | `acceptance.rs` | from which directions, and how well: `R(ω)` |
 //! | channel | `channel.rs` | how well each wavelength counts, `s(λ)`, and what is read off |
+//! | readout | `photodiode.rs` | from a photocurrent to what is displayed: noise, range, steps |
 
 pub mod acceptance;
 pub mod aperture;
 pub mod channel;
+pub mod photodiode;
 
 pub use acceptance::{Acceptance, DirectionalResponse};
 pub use aperture::Aperture;
-pub use channel::Channel;
+pub use channel::{Channel, ResponsivityKind, ResponsivityUncertainty, TemperatureCoefficient, Weighting};
+pub use photodiode::Photodiode;
 
 /// A sensor, without a place in a scene.
 #[derive(Clone, Debug)]
@@ -29,4 +32,14 @@ pub struct Sensor {
     pub acceptance: Acceptance,
     /// What is read off, at least one.
     pub channels: Vec<Channel>,
+    /// Electronics behind the channels; without one a channel indicates what it collects.
+    pub readout: Option<Photodiode>,
+}
+
+impl Sensor {
+    /// A sensor of its parts without a readout; at least one channel is needed to read anything.
+    #[must_use]
+    pub fn new(title: impl Into<String>, aperture: Aperture, acceptance: Acceptance, channels: Vec<Channel>) -> Sensor {
+        Sensor { title: title.into(), aperture, acceptance, channels, readout: None }
+    }
 }

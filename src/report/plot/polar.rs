@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn a_cosine_response_is_a_circle_of_diameter_one() {
-        let sensor = Sensor { title: "ideal".to_owned(), aperture: Aperture::Point, acceptance: Acceptance::Cosine, channels: Vec::new() };
+        let sensor = Sensor::new("ideal", Aperture::Point, Acceptance::Cosine, Vec::new());
         let chart = chart(&[sensor]).unwrap();
         let curve = chart.curves.iter().find(|curve| curve.label == "ideal").unwrap();
         assert!(curve.points.iter().all(|[x, y]| (x.hypot(y - 0.5) - 0.5).abs() < 1e-12));

@@ -197,7 +197,7 @@ mod tests {
     use crate::sensor::Aperture;
 
     fn ideal(acceptance: Acceptance) -> Sensor {
-        Sensor { title: "ideal".to_owned(), aperture: Aperture::Point, acceptance, channels: Vec::new() }
+        Sensor::new("ideal", Aperture::Point, acceptance, Vec::new())
     }
 
     #[test]

@@ -93,8 +93,8 @@ fn dome(c: &Case) -> Outcome {
 /// A million small sources and a big one, less the big one alone. The scene is made in memory.
 fn hdr_sum(c: &Case) -> Outcome {
     let v = library::v_lambda();
-    let channel = Channel { name: "E_v".into(), responsivity: v.clone(), reads: Measurand::Illuminance, scale: K_M_LM_W };
-    let sensor = Sensor { title: "meter".into(), aperture: Aperture::Point, acceptance: Acceptance::Cosine, channels: vec![channel] };
+    let channel = Channel::new("E_v", v.clone(), Measurand::Illuminance, K_M_LM_W);
+    let sensor = Sensor::new("meter", Aperture::Point, Acceptance::Cosine, vec![channel]);
     let pose = Pose { at: DVec3::ZERO, normal: DVec3::Z, x_axis: DVec3::X };
     let instrument = Instrument { name: "meter".into(), sensor: Arc::new(sensor), layout: Layout::Single, poses: vec![pose] };
     let candela = |i: f64| Density::line(555.0, i / (K_M_LM_W * v.at(555.0)));
