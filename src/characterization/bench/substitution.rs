@@ -69,6 +69,6 @@ impl Bench<'_> {
 
 /// Cosine receptor at a point that weighs with `target`.
 fn ideal_meter(target: &Factor) -> Sensor {
-    let channel = Channel { name: "standard".to_owned(), responsivity: target.clone(), reads: Measurand::Irradiance, scale: 1.0 };
-    Sensor { title: "standard".to_owned(), aperture: Aperture::Point, acceptance: Acceptance::Cosine, channels: vec![channel] }
+    let channel = Channel::new("standard", target.clone(), Measurand::Irradiance, 1.0);
+    Sensor::new("standard", Aperture::Point, Acceptance::Cosine, vec![channel])
 }
