@@ -23,6 +23,9 @@ use crate::spectrum::Density;
 const POSES: u32 = 400;
 /// How much wider than the field the black disc is.
 const BLACK_OVER_FIELD: f64 = 1.1;
+/// Distance of the screen in radii of the aperture, for a field of 1 rad; and the radius that stands for a point, m.
+const APART: f64 = 1e3;
+const NO_APERTURE_M: f64 = 1e-3;
 /// How much wider than the field the surround is, and its largest half-angle, degrees.
 const SURROUND_OVER_FIELD: f64 = 10.0;
 const WIDEST_SURROUND_DEG: f64 = 80.0;
@@ -90,8 +93,8 @@ impl Bench<'_> {
             let set_up = SetUp { sources, elements };
             self.read_with(&sensor, set_up, vec![turned(0.0, 0.0)], &PlanOptions::default(), &Stop::default())
         };
-        // Far enough that an aperture of any usual size is a point before it.
-        let far_m = 1e3 * self.sensor.aperture.radius_m().max(1e-3);
+        // So far that the aperture, seen from there, is small beside the gap between field and black disc.
+        let far_m = APART / half_angle_rad * self.sensor.aperture.radius_m().max(NO_APERTURE_M);
         let full = read(vec![disc(far_m, outer)])?[0][channel];
         let ring = read(vec![disc(far_m, outer), disc(0.99 * far_m, inner)])?[0][channel];
         if full.value > 0.0 { Ok(quotient(&ring, &full)) } else { Err(self.dark(channel, "a bright screen")) }

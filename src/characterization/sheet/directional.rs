@@ -17,6 +17,7 @@ use crate::characterization::bench::goniometer::Goniogram;
 use crate::characterization::bench::sampling::halving_error;
 use crate::characterization::class_limits::limits;
 use crate::characterization::directional_mismatch::{DirectionalError, f2, f2_of_response};
+use crate::quantity::Measurand;
 use crate::sensor::Acceptance;
 
 /// Upper angle of f2, degrees.
@@ -86,7 +87,8 @@ fn planar(bench: &Bench<'_>) -> Result<Directional, SheetError> {
         unit: "%",
         computed: Figure::exact(computed, 1.0).scaled(PERCENT),
         measured: measured.scaled(PERCENT),
-        limits: limits("f2"),
+        stated_u: 0.0,
+        limits: if sensor.channels.iter().any(|channel| channel.reads == Measurand::Illuminance) { limits("f2") } else { None },
         conditions: format!("ε up to {LARGEST_ANGLE_DEG}°{planes}"),
     };
     let along_normal = acceptance.at(1.0, 0.0, 0.0);
@@ -98,6 +100,7 @@ fn planar(bench: &Bench<'_>) -> Result<Directional, SheetError> {
         unit: "%",
         computed: Figure::exact(flat(acceptance.projected_solid_angle_sr() / along_normal), 1.0).scaled(PERCENT),
         measured: Figure { value: flat(sampled.value), standard_uncertainty: sampled.standard_uncertainty / PI }.scaled(PERCENT),
+        stated_u: 0.0,
         limits: None,
         conditions: "∫ R cos θ dω / (π R(0)) − 1, by rays".to_owned(),
     };
@@ -154,6 +157,7 @@ fn cone(bench: &Bench<'_>, half_angle_rad: f64) -> Result<Directional, SheetErro
         unit,
         computed,
         measured,
+        stated_u: 0.0,
         limits: None,
         conditions: conditions.to_owned(),
     };

@@ -84,6 +84,8 @@ pub struct Index {
     pub computed: Figure,
     /// On the bench.
     pub measured: Figure,
+    /// What the stated uncertainty of the curves makes uncertain in both, standard uncertainty in the same unit.
+    pub stated_u: f64,
     /// Limits of the classes, where there are any.
     pub limits: Option<&'static Limits>,
     /// Source, filter, angles: what the number depends on.
@@ -97,10 +99,16 @@ impl Index {
         self.computed.deviation_u(&self.measured)
     }
 
+    /// Standard uncertainty of the measured figure, the stated uncertainty of the curves included.
+    #[must_use]
+    pub fn standard_uncertainty(&self) -> f64 {
+        self.measured.standard_uncertainty.hypot(self.stated_u)
+    }
+
     /// The class of the measured figure, with the probability that it is within the limit.
     #[must_use]
     pub fn classified(&self) -> Option<Classified> {
-        self.limits.map(|limits| limits.classify(self.measured.value, self.measured.standard_uncertainty))
+        self.limits.map(|limits| limits.classify(self.measured.value, self.standard_uncertainty()))
     }
 }
 
@@ -258,7 +266,7 @@ fn meter(sensor: &Sensor, options: &Options, watch: &Watch<'_>) -> Result<DataSh
         let mut sheet = spectral::characterise(&bench, index, &spectrogram)?;
         if channel.reads == Measurand::Illuminance {
             let all = || sheet.indices.iter().chain(&directional.indices);
-            let judged: Vec<_> = all().filter_map(|i| Some((i.limits?, i.measured.value, i.measured.standard_uncertainty))).collect();
+            let judged: Vec<_> = all().filter_map(|i| Some((i.limits?, i.measured.value, i.standard_uncertainty()))).collect();
             sheet.class = class_limits::worst(&judged);
             sheet.total = total(&judged);
         }

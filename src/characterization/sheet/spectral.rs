@@ -12,11 +12,12 @@ use super::{Absent, ChannelSheet, Index, Lamp, Responsivity, SheetError, Target}
 use crate::characterization::bench::Bench;
 use crate::characterization::bench::monochromator::Spectrogram;
 use crate::characterization::bench::sampling::Sampled;
-use crate::characterization::class_limits::limits;
+use crate::characterization::class_limits::{Limits, limits};
 use crate::characterization::out_of_band::{Arrangement, response, share_behind};
 use crate::characterization::spectral_mismatch::{MismatchError, Wavelengths, correction_factor, mean_wavelength_nm, mismatch_index};
 use crate::characterization::{Figure, linearity};
-use crate::sensor::{Channel, Sensor};
+use crate::quantity::Measurand;
+use crate::sensor::{Channel, ResponsivityUncertainty, Sensor};
 use crate::spectrum::{Density, Factor, library};
 
 /// Lamps of the table of mismatch factors, by their names in the library.
@@ -43,10 +44,11 @@ pub(super) fn range_nm(sensor: &Sensor) -> (f64, f64) {
     })
 }
 
-/// A spectrum that a channel sees: A, or the same at every wavelength.
+/// Light that a channel sees: one line where it sees best, of whole nm. Directions are the same at every wavelength.
 pub(super) fn seen_by(channel: &Channel) -> Result<Density, SheetError> {
-    let a = Density::illuminant_a();
-    if a.integral(&[&channel.responsivity]) > 0.0 { Ok(a) } else { Ok(Density::flat(WIDEST_NM.0, WIDEST_NM.1, 1.0)?) }
+    let wavelengths = (WIDEST_NM.0 as u32..=WIDEST_NM.1 as u32).map(f64::from);
+    let best = wavelengths.max_by(|a, b| channel.responsivity.at(*a).total_cmp(&channel.responsivity.at(*b)));
+    Ok(Density::line(best.unwrap_or(WIDEST_NM.0), 1.0)?)
 }
 
 /// Indices of one channel.
@@ -95,6 +97,21 @@ struct Subject<'a> {
 }
 
 impl Subject<'_> {
+    /// Limits of classes, which are those of illuminance meters.
+    fn limits(&self, symbol: &str) -> Option<&'static Limits> {
+        if self.channel.reads == Measurand::Illuminance { limits(symbol) } else { None }
+    }
+
+    /// How much an index changes when the curve moves by its stated standard uncertainty: one cause at all wavelengths.
+    fn stated(&self, index: impl Fn(&Factor) -> Result<f64, MismatchError>) -> Result<f64, MismatchError> {
+        let Some(ResponsivityUncertainty::Curve(u)) = &self.channel.responsivity_uncertainty else {
+            // The same share at every wavelength is a scale, and scales cancel.
+            return Ok(0.0);
+        };
+        let moved = Factor::Sum(vec![self.channel.responsivity.clone(), u.clone()]);
+        Ok((index(&moved)? - index(&self.channel.responsivity)?).abs())
+    }
+
     fn mismatch(&self, target: &Target) -> Result<Index, MismatchError> {
         let (from_nm, to_nm) = target.range_nm;
         let over = Wavelengths::Integral { from_nm, to_nm };
@@ -106,7 +123,8 @@ impl Subject<'_> {
             unit: "%",
             computed: Figure::exact(computed, 1.0).scaled(PERCENT),
             measured: measured.scaled(PERCENT),
-            limits: if target.photopic { limits("f1_prime") } else { None },
+            limits: self.limits("f1_prime"),
+            stated_u: self.stated(|curve| mismatch_index(curve, &target.curve, &target.calibration, over))? * PERCENT,
             conditions: format!("against {}, adjusted with {}, {from_nm} nm to {to_nm} nm", target.name, target.calibration_name),
         })
     }
@@ -132,7 +150,8 @@ impl Subject<'_> {
             unit: "%",
             computed: Figure::exact(computed, share).scaled(PERCENT),
             measured: measured.scaled(PERCENT),
-            limits: limits(symbol),
+            limits: self.limits(symbol),
+            stated_u: self.stated(|curve| response(curve, &target.curve, arrangement)).map_err(&told)? * PERCENT,
             conditions: arrangement.words.clone(),
         })
     }
@@ -175,14 +194,14 @@ impl Subject<'_> {
             unit: "%",
             computed: Figure::exact(0.0, 1.0).scaled(PERCENT),
             measured: Figure { value, standard_uncertainty: u }.scaled(PERCENT),
-            limits: if target.is_some_and(|t| t.photopic) { limits("f3") } else { None },
+            limits: self.limits("f3"),
+            stated_u: 0.0,
             conditions: "without a readout; a lamp over seven decades of strength".to_owned(),
         })
     }
 
     fn mean_wavelength(&self, target: Option<&Target>) -> Result<Index, MismatchError> {
-        let (from, to) = RANGE_NM;
-        let flat = Density::flat(from.min(WIDEST_NM.0), to.max(WIDEST_NM.1), 1.0)?;
+        let flat = Density::flat(WIDEST_NM.0, WIDEST_NM.1, 1.0)?;
         let (spectrum, words) = match target {
             Some(target) => (target.calibration.clone(), target.calibration_name),
             None => (flat, "equal energy"),
@@ -199,6 +218,7 @@ impl Subject<'_> {
             computed: Figure::exact(computed, computed),
             measured: self.sampled.mean_wavelength_nm(&spectrum)?,
             limits: None,
+            stated_u: self.stated(|curve| mean_wavelength_nm(curve, &spectrum))?,
             conditions: format!("∫ S s λ dλ / ∫ S s dλ, S: {words}, {from_nm} nm to {to_nm} nm"),
         })
     }

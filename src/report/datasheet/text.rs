@@ -31,8 +31,8 @@ pub fn to_text(sheet: &DataSheet) -> String {
     for channel in &sheet.channels {
         lines.extend(channel_lines(channel));
     }
+    lines.push(String::new());
     if sheet.channels.iter().any(|channel| channel.class.is_some()) {
-        lines.push(String::new());
         lines.extend(wrapped(
             &format!(
                 "Limits of classes: {}. p: probability that the measured index is within the limit of the class. Not judged: f4 display, \
@@ -87,7 +87,7 @@ fn section(title: &str, indices: &[Index], absent: &[Absent]) -> Vec<String> {
                 index.name.to_owned(),
                 index.unit.to_owned(),
                 plain(&index.computed),
-                number(&index.measured),
+                number(&Figure { standard_uncertainty: index.standard_uncertainty(), ..index.measured }),
                 format!("{:.1}", index.deviation_u()),
                 class.map_or("", |c| c.class.map_or("none", |class| class.letter())).to_owned(),
                 class.map_or(String::new(), |c| probability(c.probability)),
@@ -126,6 +126,9 @@ fn plain(figure: &Figure) -> String {
 /// A value with its uncertainty, rounded to two digits of it; one that is only arithmetic does not stretch the value.
 fn number(figure: &Figure) -> String {
     let (value, u) = (figure.value, figure.standard_uncertainty);
+    if value.abs() <= u && u < ARITHMETIC {
+        return format!("0 ± {u:.0e}");
+    }
     if u < ARITHMETIC * value.abs().max(ARITHMETIC) {
         return format!("{} ± {u:.0e}", plain(figure));
     }
@@ -179,6 +182,7 @@ mod tests {
         let figure = |value, standard_uncertainty| Figure { value, standard_uncertainty };
         assert_eq!(number(&figure(5.45123, 0.0021)), "5.4512 ± 0.0021");
         assert_eq!(number(&figure(0.98765432, 6e-13)), "0.9877 ± 6e-13");
+        assert_eq!(number(&figure(1e-14, 8.2e-11)), "0 ± 8e-11");
         assert_eq!(plain(&figure(1e-14, 1e-12)), "0");
         assert_eq!(probability(0.99999), ">0.999");
         assert_eq!(probability(1.0), "1.000");
