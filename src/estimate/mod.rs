@@ -175,6 +175,12 @@ pub enum EstimateError {
         /// The instrument.
         instrument: String,
     },
+    /// There is no plan for a companion of an instrument: an error of the program.
+    #[error("internal error: a companion of an instrument cannot be planned: {why}; please report this")]
+    Companion {
+        /// What planning said.
+        why: String,
+    },
     /// A journal does not hold all that a run needs, and may not be added to.
     #[error("{missing} of {pieces} pieces of work are missing")]
     Incomplete {

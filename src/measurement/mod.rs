@@ -13,12 +13,22 @@
 //! | double-precision arithmetic | B | within ± 1e-12 of the value |
 //! | rounding of coordinates | B | far from the origin, and of slivers, where it is more than that (`coordinates.rs`) |
 //! | what a rule left out | B | its bound |
+//! | responsivity | B | as its file states it, the same cause at all wavelengths |
+//! | noise and steps of a readout | B | one reading of the display (`electronics.rs`) |
+//!
+//! What an ideal instrument would indicate in the same place: [`ideal`].
 
+mod companion;
 mod coordinates;
+mod electronics;
 mod header;
+pub mod ideal;
+mod own_uncertainty;
 mod provenance;
 mod reading;
 
+pub use electronics::DisplayReading;
 pub use header::CheckpointHeader;
+pub use ideal::{Cause, IdealReading, Part, add_ideal};
 pub use provenance::{Difference, Provenance, in_words};
 pub use reading::{Measurement, Reading, measure, measure_with};

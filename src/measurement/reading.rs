@@ -2,6 +2,9 @@
 
 use super::Provenance;
 use super::coordinates::Coordinates;
+use super::electronics::{DisplayReading, displayed};
+use super::ideal::IdealReading;
+use super::own_uncertainty::OwnUncertainty;
 use crate::estimate::journal::{Journal, Unrecorded};
 use crate::estimate::{ChannelEstimate, Counters, EstimateError, PoseEstimate, Stop, Watch, estimate_with};
 use crate::math::DVec3;
@@ -9,9 +12,10 @@ use crate::metrology::{Budget, BudgetRow, Expanded, Replicates};
 use crate::plan::{Bound, Plan};
 use crate::quantity::Measurand;
 use crate::scene::{Instrument, Layout, Scene};
+use crate::sensor::ResponsivityUncertainty;
 
 /// Relative half-width within which double-precision arithmetic keeps a formula; the formulas are tested far below it.
-const ARITHMETIC: f64 = 1e-12;
+pub(super) const ARITHMETIC: f64 = 1e-12;
 
 /// What an instrument indicates in one pose and channel.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +36,12 @@ pub struct Reading {
     pub value: f64,
     /// Its uncertainty, by cause.
     pub budget: Budget,
+    /// The part of u_c that is not the instrument's own: sampling, quadrature, what was left out.
+    pub computed_uncertainty: f64,
+    /// What the electronics made of it, if the sensor has a readout.
+    pub readout: Option<DisplayReading>,
+    /// What an ideal instrument would indicate, once it was asked for: see [`super::add_ideal`].
+    pub ideal: Option<IdealReading>,
     /// Coverage factor and expanded uncertainty at 95 %.
     pub expanded: Expanded,
     /// Samples over all jobs and replicates; zero where formulas served.
@@ -92,13 +102,15 @@ pub fn measure_with(
     let start = (watch.now)();
     let estimates = estimate_with(scene, plan, stop, seed, watch, journal)?;
     let mut readings = Vec::new();
+    let curves = OwnUncertainty::of(scene, plan, seed, watch)?;
     let coordinates = Coordinates::of(scene);
     for (i, (instrument, poses)) in scene.instruments.iter().zip(&estimates.poses).enumerate() {
         let left_out: Vec<LeftOut> = (0..instrument.sensor.channels.len()).map(|c| LeftOut::of(plan, i, c)).collect();
         for (index, pose) in poses.iter().enumerate() {
             let coordinates = coordinates.share(scene, instrument.poses[index].at);
             for (c, channel) in pose.channels.iter().enumerate() {
-                let reading = read(instrument, index, c, (pose, coordinates), channel, &left_out[c]);
+                let from_file = curves.of_channel(i, index, c);
+                let reading = read(instrument, (i, index, c), (pose, coordinates), channel, &left_out[c], from_file, seed);
                 if !(reading.value.is_finite() && reading.expanded.expanded_uncertainty.is_finite()) {
                     return Err(EstimateError::OutOfRange { instrument: instrument.name.clone() });
                 }
@@ -146,11 +158,12 @@ impl LeftOut {
 
 fn read(
     instrument: &Instrument,
-    index: usize,
-    c: usize,
+    (i, index, c): (usize, usize, usize),
     (pose, coordinates): (&PoseEstimate, f64),
     estimate: &ChannelEstimate,
     left_out: &LeftOut,
+    from_file: Vec<f64>,
+    seed: u64,
 ) -> Reading {
     let sensor = &instrument.sensor;
     let channel = &sensor.channels[c];
@@ -184,33 +197,34 @@ fn read(
     for &(rule, bound) in &left_out.bounds {
         budget.push(BudgetRow::one_sided(format!("left out: {rule}"), bound));
     }
+    let mut notes = Vec::new();
+    let computed_uncertainty = budget.combined_standard_uncertainty();
+    if value == 0.0 {
+        notes.push(format!("reads zero: {}", why_zero(computed_uncertainty, estimate, left_out)));
+    }
+    if !pose.target_met && value != 0.0 {
+        notes.push("the target was not met within the samples or the time allowed".to_owned());
+    }
+    let shares = channel.responsivity_uncertainty.iter().filter_map(|u| match u {
+        ResponsivityUncertainty::Relative(share) => Some(share * value.abs()),
+        ResponsivityUncertainty::Curve(_) => None,
+    });
+    for u in shares.chain(from_file) {
+        budget.push(BudgetRow::normal("responsivity, one cause for all wavelengths", u));
+    }
+    let electronics = sensor.readout.as_ref().zip(sensor.photocurrent_per_unit_a(channel));
+    let readout = electronics.map(|(diode, a_per_unit)| {
+        let path = [i as u64, index as u64, c as u64];
+        let (shown, display) = displayed(diode, value, a_per_unit, (seed, &path), channel.reads.unit(), &mut budget, &mut notes);
+        value = shown;
+        display
+    });
     let expanded = budget.expanded().unwrap_or(Expanded {
         coverage_probability: crate::metrology::budget::DEFAULT_COVERAGE_PROBABILITY,
         coverage_factor: f64::INFINITY,
         expanded_uncertainty: f64::INFINITY,
         degrees_of_freedom: 0.0,
     });
-    let mut notes = Vec::new();
-    if value == 0.0 {
-        let why = if budget.combined_standard_uncertainty() > 0.0 {
-            "no light was found; the uncertainty is the upper bound of what may have been missed".to_owned()
-        } else {
-            let mut reasons = left_out.reasons.clone();
-            if estimate.exact.terms + estimate.sampled.len() > 0 {
-                reasons.push(
-                    "in this pose nothing that is computed reaches the sensor from above its horizon, in its acceptance and in its band"
-                        .to_owned(),
-                );
-            } else if reasons.is_empty() {
-                reasons.push("the scene has no source".to_owned());
-            }
-            reasons.join("; ")
-        };
-        notes.push(format!("reads zero: {why}"));
-    }
-    if !pose.target_met && value != 0.0 {
-        notes.push("the target was not met within the samples or the time allowed".to_owned());
-    }
     Reading {
         instrument: instrument.name.clone(),
         layout: instrument.layout,
@@ -220,10 +234,29 @@ fn read(
         measurand: channel.reads.clone(),
         value,
         budget,
+        computed_uncertainty,
+        readout,
+        ideal: None,
         expanded,
         samples,
         seconds: pose.seconds,
         target_met: pose.target_met,
         notes,
     }
+}
+
+/// Why a reading is zero.
+fn why_zero(uncertainty: f64, estimate: &ChannelEstimate, left_out: &LeftOut) -> String {
+    if uncertainty > 0.0 {
+        return "no light was found; the uncertainty is the upper bound of what may have been missed".to_owned();
+    }
+    let mut reasons = left_out.reasons.clone();
+    if estimate.exact.terms + estimate.sampled.len() > 0 {
+        reasons.push(
+            "in this pose nothing that is computed reaches the sensor from above its horizon, in its acceptance and in its band".to_owned(),
+        );
+    } else if reasons.is_empty() {
+        reasons.push("the scene has no source".to_owned());
+    }
+    reasons.join("; ")
 }

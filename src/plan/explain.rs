@@ -62,7 +62,8 @@ impl Plan {
     fn write_instrument(&self, scene: &Scene, instrument: usize, out: &mut String) -> std::fmt::Result {
         for (c, channel) in scene.instruments[instrument].sensor.channels.iter().enumerate() {
             let unit = channel.reads.unit();
-            writeln!(out, "  channel `{}` reads {} in {unit}", channel.name, channel.reads.name())?;
+            let kind = if channel.kind.is_absolute() { format!("; {}", channel.kind.words()) } else { String::new() };
+            writeln!(out, "  channel `{}` reads {} in {unit}{kind}", channel.name, channel.reads.name())?;
             let rows: Vec<Row> = [self.kept_rows(scene, instrument, c), self.omitted_rows(scene, instrument, c, unit)].concat();
             let width = rows.iter().map(|r| r.sources.chars().count()).max().unwrap_or(0);
             for Row { verb, transport, sources, what } in rows {

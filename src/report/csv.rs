@@ -12,12 +12,14 @@
 //! | `samples`, `target_met` | samples taken; whether `U` is as small as was asked |
 //! | `seed` | of the random numbers; the same in each row |
 //! | `notes` | what is to be known about the reading, joined by `; ` |
+//! | `ideal_value`, `ideal_standard_uncertainty` | what an ideal instrument would indicate; empty where the instrument is one |
+//! | `spectral_mismatch` to `electronics` | parts of `value` minus `ideal_value`, in the unit |
 
-use crate::measurement::Measurement;
+use crate::measurement::{Cause, Measurement, Reading};
 use crate::report::json::grid_index;
 
 /// The columns.
-const COLUMNS: [&str; 19] = [
+const COLUMNS: [&str; 26] = [
     "instrument",
     "index",
     "column",
@@ -37,7 +39,22 @@ const COLUMNS: [&str; 19] = [
     "target_met",
     "seed",
     "notes",
+    "ideal_value",
+    "ideal_standard_uncertainty",
+    "spectral_mismatch",
+    "temperature",
+    "directional_response",
+    "area_averaging",
+    "electronics",
 ];
+
+/// The columns of the ideal reading, empty where there is none.
+fn of_ideal(reading: &Reading) -> [String; 7] {
+    let Some(ideal) = &reading.ideal else { return Default::default() };
+    let part = |cause: Cause| ideal.parts.iter().find(|p| p.cause == cause).map_or(String::new(), |p| p.value.to_string());
+    let [spectral, temperature, directional, area, electronics] = Cause::ALL.map(part);
+    [ideal.value.to_string(), ideal.standard_uncertainty.to_string(), spectral, temperature, directional, area, electronics]
+}
 
 /// The measurement as CSV text.
 #[must_use]
@@ -68,6 +85,9 @@ pub fn to_csv(measurement: &Measurement) -> String {
             measurement.provenance.seed.to_string(),
             r.notes.join("; "),
         ]
+        .into_iter()
+        .chain(of_ideal(r))
+        .collect()
     }));
     for row in rows {
         // A vector takes whatever is written to it.

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::estimate::Stop;
-use crate::measurement::{Measurement, Provenance, Reading};
+use crate::measurement::{DisplayReading, IdealReading, Measurement, Part, Provenance, Reading};
 use crate::scene::Layout;
 
 #[derive(Serialize)]
@@ -42,8 +42,78 @@ struct Row<'a> {
     seconds: f64,
     target_met: bool,
     budget: Vec<Cause<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    readout: Option<Display<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ideal: Option<Ideal>,
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     notes: &'a [String],
+}
+
+/// What the electronics made of it; in the unit of the reading where no other is named.
+#[derive(Serialize)]
+struct Display<'a> {
+    analogue: f64,
+    photocurrent_a: f64,
+    feedback_ohm: f64,
+    voltage_v: f64,
+    code: Option<f64>,
+    expected: f64,
+    standard_deviation: f64,
+    one_noisy_reading: f64,
+    step: Option<f64>,
+    deviations: Vec<Deviated<'a>>,
+    saturated: bool,
+}
+
+#[derive(Serialize)]
+struct Deviated<'a> {
+    cause: &'a str,
+    value: f64,
+}
+
+/// What an ideal instrument would indicate, and why this one differs.
+#[derive(Serialize)]
+struct Ideal {
+    value: f64,
+    standard_uncertainty: f64,
+    difference: f64,
+    parts: Vec<PartOfIt>,
+}
+
+#[derive(Serialize)]
+struct PartOfIt {
+    cause: &'static str,
+    value: f64,
+    u: f64,
+    percent: Option<f64>,
+}
+
+fn display(d: &DisplayReading) -> Display<'_> {
+    Display {
+        analogue: d.analogue,
+        photocurrent_a: d.photocurrent_a,
+        feedback_ohm: d.feedback_ohm,
+        voltage_v: d.voltage_v,
+        code: d.code,
+        expected: d.expected,
+        standard_deviation: d.standard_deviation,
+        one_noisy_reading: d.one,
+        step: d.step,
+        deviations: d.deviations.iter().map(|(cause, value)| Deviated { cause: cause.words(), value: *value }).collect(),
+        saturated: d.saturation.is_some(),
+    }
+}
+
+fn ideal(i: &IdealReading) -> Ideal {
+    let percent = |x: f64| finite(100.0 * x / i.value);
+    let part = |p: &Part| PartOfIt { cause: p.cause.words(), value: p.value, u: p.standard_uncertainty, percent: percent(p.value) };
+    Ideal {
+        value: i.value,
+        standard_uncertainty: i.standard_uncertainty,
+        difference: i.difference(),
+        parts: i.parts.iter().map(part).collect(),
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -136,6 +206,8 @@ fn row(r: &Reading) -> Row<'_> {
                 degrees_of_freedom: finite(b.degrees_of_freedom),
             })
             .collect(),
+        readout: r.readout.as_ref().map(display),
+        ideal: r.ideal.as_ref().map(ideal),
         notes: &r.notes,
     }
 }

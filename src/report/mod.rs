@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `text.rs` | a table for a person |
+//! | `ideal.rs` | what ideal instruments would indicate, a part of that table |
 //! | `json.rs` | everything, for programs; numbers keep all their digits |
 //! | `csv.rs` | a row a reading, for spreadsheets |
 //! | `convergence/` | error against run time, in the same three forms; reads references |
@@ -16,6 +17,7 @@
 pub mod convergence;
 pub mod csv;
 pub mod datasheet;
+mod ideal;
 pub mod json;
 pub mod lecture;
 #[cfg(feature = "plot")]

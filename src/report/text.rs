@@ -4,6 +4,7 @@
 
 use std::fmt::Write;
 
+use super::ideal::write_ideal;
 use crate::estimate::Counters;
 use crate::math::DVec3;
 use crate::measurement::{Measurement, Reading};
@@ -52,6 +53,7 @@ fn write_all(m: &Measurement, out: &mut String) -> std::fmt::Result {
         }
         rest = others;
     }
+    write_ideal(m, out)?;
     if single.len() <= BUDGETS {
         for r in &single {
             write_budget(r, out)?;

@@ -10,7 +10,7 @@
 //! | `EquivalentDaylightIlluminance("melanopic")` | lx | `1/K_α,v(D65)`, α-opic EDI of CIE S 026 |
 //! | … `(receptor: "melanopic", adjusted_with: "D65")` | | true for that spectrum |
 //! | `PhotonIrradiance` | µmol/(m² s) | `10⁶ / N_A`, and s(λ) is multiplied by n(λ) λ/(hc) |
-//! | `Photocurrent` | A | 1; s(λ) is in A/W |
+//! | `Photocurrent` | A | 1; s(λ) must be in A/W, stated so or from a quantum efficiency (`responsivity_reader.rs`) |
 //! | `Weighted(name: "erythemal irradiance", symbol: "E_er", unit: "W/m²", per_watt: 1)` | as given | as given |
 //! | `Weighted(…, of: Radiance)` | as given | as given, over `∫R cosθ dω` of the acceptance |
 //! | `Signal(unit: "V", per_watt: 2)` | as given | as given |
@@ -18,18 +18,25 @@
 //! `ScotopicIlluminance` and `EquivalentDaylightIlluminance` need no `responsivity`: without one the channel has that of the observer. Photons
 //! are counted at the wavelength in vacuum, n(λ) λ: files give wavelengths in air. Several channels at once:
 //! `observer_reader.rs`.
+//!
+//! | other keys | meaning |
+//! |---|---|
+//! | `uncertainty_percent: 1.5` | standard uncertainty of the responsivity, the same share at every wavelength |
+//! | `temperature: (coefficient_percent_per_k: 0.1, adjusted_at_c: 25, used_at_c: 35)` | the indication is multiplied by 1 + c (T − T₀) |
+//! | `ideal: Band(from_nm: 400, to_nm: 700)` | what an ideal channel weighs light with, where the quantity does not say it |
 
 use super::adjustment::{System, read_luminous_scale, read_optional_adjustment};
-use super::decode::Value;
+use super::decode::{Fields, Value};
 use super::document::{Body, Kind};
-use super::factor_range::{LARGEST, is_zero, outside_of};
+use super::factor_range::{LARGEST, outside_of};
 use super::reading::Reading;
+use super::responsivity_reader::{Responsivity, read_responsivity};
 use super::spectrum_reader::{read_factor, v_lambda};
 use crate::naming::suggestion;
 use crate::observer::{AlphaOpic, Efficiency};
 use crate::quantity::constants::{AVOGADRO_PER_MOL, K_M_LM_W};
 use crate::quantity::measurand::Measurand;
-use crate::sensor::{Acceptance, Aperture, Channel};
+use crate::sensor::{Acceptance, Aperture, Channel, ResponsivityKind, ResponsivityUncertainty, TemperatureCoefficient, Weighting};
 use crate::spectrum::photometry::{WavelengthsIn, photons_per_joule};
 use crate::spectrum::{Factor, Outside};
 
@@ -48,12 +55,26 @@ const READS: [&str; 12] = [
     "Signal",
 ];
 
-/// What a channel indicates, and by which scale; the observer's own curve if the file gives no responsivity.
+/// What a channel indicates, and by which scale; what an ideal channel weighs light with, where the quantity says it.
 struct Indication {
     reads: Measurand,
     scale: f64,
-    own_curve: Option<Factor>,
+    ideal: Option<Weighting>,
 }
+
+impl Indication {
+    /// Of a quantity that leaves the weighting to the channel.
+    fn new(reads: Measurand, scale: f64) -> Indication {
+        Indication { reads, scale, ideal: None }
+    }
+
+    /// Of a quantity with a weighting of its own.
+    fn of(reads: Measurand, scale: f64, system: System) -> Indication {
+        Indication { reads, scale, ideal: Some(Weighting { curve: system.curve, scale: system.per_watt }) }
+    }
+}
+
+const KEYS: [&str; 6] = ["name", "responsivity", "reads", "uncertainty_percent", "temperature", "ideal"];
 
 /// Reads a channel. The aperture and the acceptance are those of its sensor, if they could be read.
 pub(super) fn read_channel(
@@ -62,7 +83,7 @@ pub(super) fn read_channel(
     acceptance: Option<&Acceptance>,
     reading: &mut Reading,
 ) -> Option<Channel> {
-    let fields = value.fields("a channel", &["name", "responsivity", "reads"], &mut reading.problems)?;
+    let fields = value.fields("a channel", &KEYS, &mut reading.problems)?;
     let name = fields.require("name", "\"E_v\"", &mut reading.problems).and_then(|v| v.text(&mut reading.problems));
     let has_own_curve =
         fields.get("reads").is_some_and(|reads| matches!(reads.name(), "ScotopicIlluminance" | "EquivalentDaylightIlluminance"));
@@ -70,32 +91,98 @@ pub(super) fn read_channel(
         None if has_own_curve => None,
         _ => Some(fields.require("responsivity", "\"V\"", &mut reading.problems).and_then(|v| read_responsivity(&v, reading))),
     };
+    let stated = fields
+        .get("uncertainty_percent")
+        .map(|v| v.number_in("the uncertainty of the responsivity", "0 % to 100 %", |x| (0.0..=100.0).contains(&x), &mut reading.problems));
+    let temperature = fields.get("temperature").map(|v| read_temperature(&v, reading));
     let reads = fields.require("reads", "Illuminance", &mut reading.problems)?;
-    let found = read_indication(&reads, given.as_ref().map(Option::as_ref), aperture, acceptance, reading)?;
-    let (name, mut responsivity) = (name?, given.unwrap_or(found.own_curve)?);
+    let curve = given.as_ref().map(|given| given.as_ref().map(|r| &r.curve));
+    let found = read_indication(&reads, curve, aperture, acceptance, reading)?;
+    let ideal = read_ideal(&fields, &found, reads.name(), reading);
+    let given = match given {
+        Some(given) => given?,
+        None => Responsivity { curve: ideal.as_ref()?.curve.clone(), kind: ResponsivityKind::Relative, uncertainty: Vec::new() },
+    };
+    unit_serves(&reads, given.kind, &fields, reading)?;
+    let mut channel = Channel::new(name?, given.curve, found.reads, found.scale);
+    channel.kind = given.kind;
+    channel.responsivity_uncertainty = given.uncertainty;
+    channel.responsivity_uncertainty.extend(match stated {
+        Some(percent) => Some(ResponsivityUncertainty::Relative(0.01 * percent?)),
+        None => None,
+    });
+    channel.temperature = match temperature {
+        Some(temperature) => Some(temperature?),
+        None => None,
+    };
+    channel.ideal = ideal;
     if reads.name() == "PhotonIrradiance" {
-        responsivity = Factor::Product(vec![responsivity, photons_per_joule(WavelengthsIn::StandardAir)]);
+        let counted = |curve: Factor| Factor::Product(vec![curve, photons_per_joule(WavelengthsIn::StandardAir)]);
+        channel.responsivity = counted(channel.responsivity);
+        channel.ideal = channel.ideal.map(|ideal| Weighting { curve: counted(ideal.curve), ..ideal });
+        for u in &mut channel.responsivity_uncertainty {
+            if let ResponsivityUncertainty::Curve(curve) = u {
+                *curve = counted(curve.clone());
+            }
+        }
     }
-    Some(Channel::new(name, responsivity, found.reads, found.scale))
+    Some(channel)
 }
 
-/// A responsivity that is nowhere negative and somewhere above zero.
-fn read_responsivity(value: &Value, reading: &mut Reading) -> Option<Factor> {
-    let factor = read_factor(value, Outside::Zero, reading)?;
-    if let Some((nm, found)) = outside_of(&factor, 0.0, LARGEST) {
-        let help = format!("allowed: 0 to {LARGEST:e} at every wavelength");
-        value.problem(&mut reading.problems, format!("the responsivity is {found} at {nm} nm"), help);
+/// Whether the unit of a responsivity goes with the quantity.
+fn unit_serves(reads: &Value, kind: ResponsivityKind, fields: &Fields, reading: &mut Reading) -> Option<()> {
+    let quantity = reads.name();
+    let problem = match (kind.is_absolute(), quantity) {
+        (false, "Photocurrent") => Some((
+            "a photocurrent needs a responsivity with a unit".to_owned(),
+            "write `responsivity: AmperesPerWatt(…)`, or `QuantumEfficiency(…)` for electrons per photon; a curve file may say `# unit: A/W`"
+                .to_owned(),
+        )),
+        (true, "Irradiance" | "RadiantFlux" | "Radiance" | "PhotonIrradiance") => Some((
+            format!("a responsivity in A/W gives a current, not what `{quantity}` is"),
+            "write `Relative(…)` if only its shape counts, `reads: Photocurrent`, or `reads: Signal(unit: \"V\", per_watt: 1)`".to_owned(),
+        )),
+        (true, _) if matches!(&reads.node.kind, Kind::Struct { body: Body::None, .. }) && quantity != "Photocurrent" => Some((
+            format!("with a responsivity in A/W, `{quantity}` needs an adjustment"),
+            format!("write `{quantity}(adjusted_with: \"A\")`, or `Relative(…)` if only the shape of the curve counts"),
+        )),
+        _ => None,
+    };
+    let Some((message, help)) = problem else { return Some(()) };
+    // The curve is what lacks the unit, where there is one.
+    fields.get("responsivity").as_ref().unwrap_or(reads).problem(&mut reading.problems, message, help);
+    None
+}
+
+/// What an ideal channel weighs light with: as the quantity says, or as the file does.
+fn read_ideal(fields: &Fields, found: &Indication, quantity: &str, reading: &mut Reading) -> Option<Weighting> {
+    let Some(given) = fields.get("ideal") else { return found.ideal.clone() };
+    if found.ideal.is_some() {
+        fields.refuse(&["ideal"], &format!("`{quantity}` says itself how light is weighted"), &mut reading.problems);
         return None;
     }
-    if is_zero(&factor) {
-        value.problem(
-            &mut reading.problems,
-            "the responsivity is zero at every wavelength, so nothing can be read",
-            "give a responsivity that is above zero somewhere",
-        );
+    let curve = read_factor(&given, Outside::Zero, reading)?;
+    if let Some((nm, value)) = outside_of(&curve, 0.0, LARGEST) {
+        given.problem(&mut reading.problems, format!("the weighting is {value} at {nm} nm"), "allowed: 0 and above at every wavelength");
         return None;
     }
-    Some(factor)
+    Some(Weighting { curve, scale: found.scale })
+}
+
+fn read_temperature(value: &Value, reading: &mut Reading) -> Option<TemperatureCoefficient> {
+    let problems = &mut reading.problems;
+    let fields = value.fields("`temperature`", &["coefficient_percent_per_k", "adjusted_at_c", "used_at_c"], problems)?;
+    let mut number = |key: &str, example: &str| fields.require(key, example, problems).and_then(|v| v.number(problems));
+    let percent = number("coefficient_percent_per_k", "0.1");
+    let (adjusted_at_c, used_at_c) = (number("adjusted_at_c", "25"), number("used_at_c", "35"));
+    let found = TemperatureCoefficient { per_k: 0.01 * percent?, adjusted_at_c: adjusted_at_c?, used_at_c: used_at_c? };
+    let factor = found.factor();
+    if factor > 0.0 && factor.is_finite() {
+        return Some(found);
+    }
+    let message = format!("at {} °C the indication would be multiplied by {factor}", found.used_at_c);
+    value.problem(problems, message, "allowed: coefficients and temperatures that leave the factor 1 + c (T − T₀) above 0");
+    None
 }
 
 /// Reads the quantity. `given`: whether the file gives a responsivity, and if it could be read, which.
@@ -119,7 +206,7 @@ fn read_indication(
     if matches!(quantity, "Radiance" | "Luminance") && !has_solid_angle(reads, acceptance, reading) {
         return None;
     }
-    let unweighted = |reads: Measurand, scale: f64| Some(Indication { reads, scale, own_curve: None });
+    let unweighted = |reads: Measurand, scale: f64| Some(Indication::new(reads, scale));
     match quantity {
         "Illuminance" | "LuminousFlux" | "Luminance" => {
             let system = System { curve: v_lambda(), per_watt: K_M_LM_W };
@@ -129,13 +216,13 @@ fn read_indication(
                 "LuminousFlux" => Measurand::LuminousFlux,
                 _ => Measurand::Luminance,
             };
-            unweighted(measurand, scale)
+            Some(Indication::of(measurand, scale, system))
         }
         "ScotopicIlluminance" => {
             let efficiency = Efficiency::Scotopic1951;
             let system = System { curve: efficiency.curve(), per_watt: efficiency.max_efficacy_lm_w() };
             let scale = read_luminous_scale(reads, &system, given.unwrap_or(Some(&system.curve)), reading)?;
-            Some(Indication { reads: scotopic_illuminance(), scale, own_curve: Some(system.curve) })
+            Some(Indication::of(scotopic_illuminance(), scale, system))
         }
         "EquivalentDaylightIlluminance" => read_equivalent_daylight(reads, given, reading),
         "Weighted" => read_weighted(reads, acceptance, reading),
@@ -207,7 +294,7 @@ fn read_weighted(reads: &Value, acceptance: Option<&Acceptance>, reading: &mut R
     let per_watt = fields.require("per_watt", "1", problems);
     let per_watt = per_watt.and_then(|v| v.number_in("`per_watt`", "above 0, up to 1e100", |x| x > 0.0 && x <= LARGEST, problems));
     let of = read_of(fields.get("of"), acceptance, reading);
-    Some(Indication { reads: weighted(name?, symbol?, unit?), scale: per_watt? * of?.0, own_curve: None })
+    Some(Indication::new(weighted(name?, symbol?, unit?), per_watt? * of?.0))
 }
 
 fn read_equivalent_daylight(reads: &Value, given: Option<Option<&Factor>>, reading: &mut Reading) -> Option<Indication> {
@@ -234,5 +321,5 @@ fn read_equivalent_daylight(reads: &Value, given: Option<Option<&Factor>>, readi
     let responsivity = given.unwrap_or(Some(&system.curve));
     let scale = fields.map_or(Some(system.per_watt), |fields| read_optional_adjustment(&fields, &system, responsivity, reading))?;
     let words = format!("{} equivalent daylight (D65) illuminance", alpha.name());
-    Some(Indication { reads: weighted(&words, &format!("E_v,{}^D65", alpha.index()), "lx"), scale, own_curve: Some(system.curve) })
+    Some(Indication::of(weighted(&words, &format!("E_v,{}^D65", alpha.index()), "lx"), scale, system))
 }

@@ -14,6 +14,7 @@
 //! | `spectrum_argument` | one spectrum or factor given as text |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
+//! | `responsivity_reader`, `readout_reader` | their curves with units and uncertainties, their electronics |
 //! | `reader` | the scene as a whole |
 //! | `checks` | what only the scene as a whole can show |
 
@@ -35,6 +36,8 @@ mod observer_reader;
 mod placement;
 mod reader;
 mod reading;
+mod readout_reader;
+mod responsivity_reader;
 mod sensor_reader;
 mod shape_reader;
 mod source_reader;

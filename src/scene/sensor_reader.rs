@@ -14,18 +14,20 @@
 //! | aperture | `Point`, `Disc(radius_mm: 5)`, `Rectangle(width_mm: 10, height_mm: 8)`; `_m` for metres |
 //! | acceptance | `Cosine`, `Cone(half_angle_deg: 0.5)`, `Directional("directional.csv")` |
 //! | channels | a list of `(name: …, responsivity: …, reads: …)` (`channel_reader.rs`) and `Observer("CIE 1931")` (`observer_reader.rs`), or one `Observer(…)` |
+//! | readout | none, or `Photodiode(…)` (`readout_reader.rs`) |
 
 use std::sync::Arc;
 
 use super::channel_reader::read_channel;
-use super::decode::Value;
+use super::decode::{Fields, Value};
 use super::diagnostic::Diagnostics;
 use super::directional_table::read_directional;
 use super::document::Kind;
 use super::files::{Files, normalised, root_of};
 use super::observer_reader::{is_observer, read_observer};
 use super::reading::Reading;
-use crate::sensor::{Acceptance, Aperture, Channel, Sensor};
+use super::readout_reader::read_readout;
+use crate::sensor::{Acceptance, Aperture, Channel, Photodiode, Sensor};
 
 /// Reads one sensor file and the files that it mentions, without a scene.
 ///
@@ -84,7 +86,7 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
         return None;
     }
     let before = problems.count();
-    let fields = value.fields("`Sensor`", &["title", "aperture", "acceptance", "channels"], problems)?;
+    let fields = value.fields("`Sensor`", &["title", "aperture", "acceptance", "channels", "readout"], problems)?;
     let title = fields.get("title").and_then(|title| title.text(problems)).unwrap_or(name).to_string();
     let aperture = fields.require("aperture", "Point", problems).and_then(|v| read_aperture(&v, reading));
     let acceptance = fields.require("acceptance", "Cosine", &mut reading.problems).and_then(|v| read_acceptance(&v, reading));
@@ -117,14 +119,39 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
             "add `(name: \"E_v\", responsivity: \"V\", reads: Illuminance)`",
         );
     }
+    let readout = fields.get("readout").map(|v| read_readout(&v, reading));
     if reading.problems.count() > before {
         return None;
     }
-    Some(Sensor::new(title, aperture?, acceptance?, list))
+    let sensor = Sensor::new(title, aperture?, acceptance?, list);
+    match readout {
+        Some(readout) => with_readout(sensor, readout?, &fields, reading),
+        None => Some(sensor),
+    }
+}
+
+/// Electronics need a photocurrent of every channel.
+fn with_readout(sensor: Sensor, readout: Photodiode, fields: &Fields, reading: &mut Reading) -> Option<Sensor> {
+    let sensor = Sensor { readout: Some(readout), ..sensor };
+    let lacking = sensor.channels.iter().find(|channel| sensor.photocurrent_per_unit_a(channel).is_none());
+    let Some(channel) = lacking else { return Some(sensor) };
+    let (name, unit) = (&channel.name, channel.reads.unit());
+    let why = match channel.kind.is_absolute() {
+        true => "the aperture is a point, and a current is collected by an area",
+        false => "its responsivity is not in A/W",
+    };
+    let value = fields.get("readout")?;
+    value.problem_at(
+        &value.name_span(),
+        &mut reading.problems,
+        format!("the readout does not know the photocurrent of the channel \"{name}\": {why}"),
+        format!("add `current_a_per_unit: 1e-9` to the readout, in A per {unit}, or give the channel `AmperesPerWatt(…)` and the aperture a size"),
+    );
+    None
 }
 
 /// A length given in one of two units.
-fn read_length(value: &Value, fields: &super::decode::Fields, stem: &str, reading: &mut Reading) -> Option<f64> {
+fn read_length(value: &Value, fields: &Fields, stem: &str, reading: &mut Reading) -> Option<f64> {
     let (mm, m) = (format!("{stem}_mm"), format!("{stem}_m"));
     let problems = &mut reading.problems;
     match (fields.get(&mm), fields.get(&m)) {

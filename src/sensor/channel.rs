@@ -113,8 +113,8 @@ pub struct Channel {
     pub responsivity: Factor,
     /// How the responsivity is stated.
     pub kind: ResponsivityKind,
-    /// Its standard uncertainty, if one is stated.
-    pub responsivity_uncertainty: Option<ResponsivityUncertainty>,
+    /// Its standard uncertainties, one for each independent cause that is stated.
+    pub responsivity_uncertainty: Vec<ResponsivityUncertainty>,
     /// How the indication follows the temperature, if it does.
     pub temperature: Option<TemperatureCoefficient>,
     /// What an ideal channel weighs light with, if there is one.
@@ -133,7 +133,7 @@ impl Channel {
             name: name.into(),
             responsivity,
             kind: ResponsivityKind::Relative,
-            responsivity_uncertainty: None,
+            responsivity_uncertainty: Vec::new(),
             temperature: None,
             ideal: None,
             reads,

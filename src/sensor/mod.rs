@@ -42,4 +42,18 @@ impl Sensor {
     pub fn new(title: impl Into<String>, aperture: Aperture, acceptance: Acceptance, channels: Vec<Channel>) -> Sensor {
         Sensor { title: title.into(), aperture, acceptance, channels, readout: None }
     }
+
+    /// Photocurrent of one unit of a channel's indication, A.
+    ///
+    /// `None` where there is none: the responsivity is not in A/W or the aperture is a point, and the readout does not state it.
+    #[must_use]
+    pub fn photocurrent_per_unit_a(&self, channel: &Channel) -> Option<f64> {
+        if let Some(stated) = self.readout.as_ref().and_then(|readout| readout.current_a_per_unit) {
+            return Some(stated);
+        }
+        // Temperature changes current and indication alike.
+        let unheated = Channel { temperature: None, ..channel.clone() };
+        let per_irradiance = unheated.indication_per_irradiance(&self.aperture, &self.acceptance)?;
+        channel.kind.is_absolute().then_some(self.aperture.area_m2()? / per_irradiance)
+    }
 }

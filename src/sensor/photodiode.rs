@@ -332,6 +332,22 @@ impl Photodiode {
         Readout { range: index, voltage_v, indicated_a, deviations_a, noise_a, saturation }
     }
 
+    /// Change of the expected indication with the photocurrent on a range; zero where the whole is cut off.
+    #[must_use]
+    pub fn slope(&self, range: usize, photocurrent_a: f64) -> f64 {
+        let Some(range) = self.ranges.get(range) else { return f64::NAN };
+        let current_a = photocurrent_a + self.dark_a();
+        if self.voltage_v(*range, current_a) > self.limit_v() {
+            return 0.0;
+        }
+        let slope = match self.nonlinearity {
+            None => 1.0,
+            Some(Nonlinearity::Quadratic { per_a }) => 1.0 + 2.0 * per_a * current_a,
+            Some(Nonlinearity::Saturating { limit_a }) => (1.0 + current_a / limit_a).powi(-2),
+        };
+        (1.0 + range.error) * slope
+    }
+
     /// One reading with its noise, as a current in A: the same for the same seed and path of counters.
     ///
     /// Noise is normal, which holds for many electrons a reading; the light comes at a phase of its flicker that the seed gives.

@@ -6,7 +6,7 @@ use std::time::Instant;
 use etendue::estimate::journal::{Journal, Share, Unrecorded};
 use etendue::estimate::run::with_threads;
 use etendue::estimate::{EstimateError, Stop, Watch, contribute};
-use etendue::measurement::{CheckpointHeader, Measurement, Provenance, measure_with};
+use etendue::measurement::{CheckpointHeader, Measurement, Provenance, add_ideal, measure_with};
 use etendue::plan::Plan;
 use etendue::scene::Scene;
 
@@ -40,6 +40,9 @@ pub(crate) struct Arguments {
     /// Hold finished work back for at most this long before it goes to the checkpoint.
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "1s", requires = "checkpoint")]
     checkpoint_every: f64,
+    /// Leave out what ideal instruments would indicate, which takes up to as long again for instruments that are not ideal.
+    #[arg(long)]
+    no_ideal: bool,
     /// Do only this share of the work, such as 2/3, and write it to the file of --checkpoint, for `etendue merge` to put
     /// together; needs --samples.
     #[arg(long, value_name = "k/K", value_parser = part, conflicts_with_all = ["format", "out"])]
@@ -97,13 +100,21 @@ pub(crate) struct Run<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) provenance: Provenance,
     pub(crate) threads: Option<u64>,
+    /// Whether to say what ideal instruments would indicate.
+    pub(crate) ideal: bool,
 }
 
 impl Run<'_> {
     /// Reads every instrument, with a bar that shows how far it is.
     pub(crate) fn measure(&self, journal: &dyn Journal) -> Result<Measurement, EstimateError> {
         let Provenance { stop, seed, .. } = &self.provenance;
-        let mut measured = self.watched(|watch| measure_with(self.scene, self.plan, stop, *seed, watch, journal));
+        let mut measured = self.watched(|watch| {
+            let mut measured = measure_with(self.scene, self.plan, stop, *seed, watch, journal)?;
+            if self.ideal {
+                add_ideal(&mut measured, self.scene, self.plan, watch)?;
+            }
+            Ok(measured)
+        });
         if let Ok(measurement) = &mut measured {
             measurement.provenance.scene_file.clone_from(&self.provenance.scene_file);
             measurement.provenance.root.clone_from(&self.provenance.root);
@@ -143,7 +154,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut provenance = Provenance::of(&scene, &plan, &stop, arguments.seed);
     provenance.scene_file.clone_from(&arguments.scene);
     provenance.root.clone_from(&arguments.root);
-    let run = Run { scene: &scene, plan: &plan, provenance, threads: arguments.threads };
+    let run = Run { scene: &scene, plan: &plan, provenance, threads: arguments.threads, ideal: !arguments.no_ideal };
     match (arguments.shard, arguments.samples) {
         (Some(share), Some(samples)) => arguments.contribute(&run, share, samples),
         _ => arguments.measure(&run),

@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     provenance.scene_file.clone_from(&scene_file);
     provenance.root.clone_from(&recorded.root);
     let output = arguments.output.prepare(&scene_file)?;
-    let run = Run { scene: &scene, plan: &plan, provenance, threads: arguments.threads };
+    let run = Run { scene: &scene, plan: &plan, provenance, threads: arguments.threads, ideal: true };
     let shares = Shares::new(parts.into_iter().map(|part| part.recording).collect());
     let not_this_run = |why: String| {
         Failure::Input(format!(

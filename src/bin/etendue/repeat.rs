@@ -81,7 +81,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         true => &Unrecorded,
         false => &Rounds(then.rounds.clone()),
     };
-    let run = Run { scene: &scene, plan: &plan, provenance, threads: arguments.threads };
+    let run = Run { scene: &scene, plan: &plan, provenance, threads: arguments.threads, ideal: false };
     let measurement = run.measure(journal).map_err(|e| failed(&e))?;
     // Read back as the file was: what cannot be written is the same on both sides.
     let now = from_json(&to_json(&measurement)).map_err(|e| Failure::Run(format!("error: {e}")))?.readings;
