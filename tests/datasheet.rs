@@ -160,7 +160,7 @@ fn the_class_is_as_sure_as_the_index() {
     let exact = sheet_of(meter.clone()).unwrap();
     assert!(exact.channels[0].class.unwrap().probability > 0.999);
     let u = etendue::spectrum::Factor::band(600.0, 700.0, 0.02).unwrap();
-    meter.channels[0].responsivity_uncertainty = Some(etendue::sensor::ResponsivityUncertainty::Curve(u));
+    meter.channels[0].responsivity_uncertainty = vec![etendue::sensor::ResponsivityUncertainty::Curve(u)];
     let open = sheet_of(meter).unwrap();
     let (f1, class) = (named(&open, "f1′"), open.channels[0].class.unwrap());
     assert!(f1.stated_u > 0.1 && class.probability < 0.99, "{f1:?} {class:?}");
@@ -175,6 +175,38 @@ fn a_spot_meter_has_a_field_and_no_f2() {
     assert!(sheet.absent.iter().any(|one| one.symbol == "f2" && one.why.contains("0.500°")), "{:?}", sheet.absent);
     assert!((named(&sheet, "α₅₀").measured.value - 0.5).abs() < 1e-4);
     assert!(sheet.goniogram.is_none() && sheet.channels.iter().all(|channel| channel.class.is_none()));
+}
+
+#[test]
+fn electronics_show_in_linearity_and_range_change() {
+    let meter = written(
+        r#"Sensor(title: "t", aperture: Point, acceptance: Cosine,
+            channels: [(name: "E_v", responsivity: "V", reads: Illuminance)],
+            readout: Photodiode(ranges: [(feedback_ohm: 1e7, error_percent: 0.0), (feedback_ohm: 1e5, error_percent: 0.4)], bandwidth_hz: 1,
+                saturation_v: 2, current_a_per_unit: 1e-9))"#,
+    );
+    let sheet = sheet_of(meter).unwrap();
+    let (f3, f11) = (named(&sheet, "f3"), named(&sheet, "f11"));
+    // The ranges differ by 0.4 %; the strongest light is read in the one that is off.
+    assert!((f11.computed.value - 0.4).abs() < 1e-6 && f11.deviation_u() < MOST_U, "{f11:?}");
+    assert!((f3.computed.value - (100.0 - 100.0 / 1.004)).abs() < 1e-6 && f3.deviation_u() < MOST_U, "{f3:?}");
+    assert_eq!(f11.classified().unwrap().class, Some(Class::A));
+}
+
+#[test]
+fn heads_have_an_index_of_their_own_and_ideal_ones_have_none() {
+    for (file, symbol) in [
+        ("spherical-illuminance-meter.ron", "f2,0"),
+        ("hemispherical-illuminance-meter.ron", "f2,h"),
+        ("cylindrical-illuminance-meter.ron", "f2,z"),
+        ("semicylindrical-illuminance-meter.ron", "f2,zh"),
+    ] {
+        let sheet = sheet_of(sensor(file)).unwrap();
+        let f2 = named(&sheet, symbol);
+        assert!(f2.computed.value < 1e-9 && f2.deviation_u() < MOST_U && f2.measured.value < 0.2, "{file}: {f2:?}");
+        assert_eq!(f2.limits.is_some(), symbol != "f2,h", "{file}");
+        assert!(named(&sheet, "f1′").measured.value < 0.1 && sheet.channels[0].class.unwrap().class == Some(Class::L), "{file}");
+    }
 }
 
 #[test]

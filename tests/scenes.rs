@@ -115,6 +115,7 @@ fn laws() -> Vec<Law> {
                 ("filled", 1, "L_e", 1000.0),
             ],
         ),
+        law("heads-that-see-all-round.ron", [1024, 16384], &heads()),
         law("eye-on-a-display.ron", [1024, 4096], &display()),
         law(
             "tiny-source.ron",
@@ -139,6 +140,21 @@ fn laws() -> Vec<Law> {
             near: vec![("in the shade", 0, "E_v", 558.0, 0.006)],
             ..law("sun-and-window.ron", [65536, 65536], &[])
         },
+    ]
+}
+
+/// Heads 2 m from a lamp of 400 cd that is 30° below the horizon, below a panel of 1000 cd/m² that fills 30° about the zenith.
+fn heads() -> Vec<(&'static str, usize, &'static str, f64)> {
+    let (a, lamp, l) = (PI / 6.0, 100.0, 1000.0);
+    let panel = (2.0 * PI * (1.0 - a.cos()), PI * a.sin().powi(2), a - a.sin() * a.cos());
+    let sine = (PI / 3.0).sin();
+    vec![
+        ("spherical", 0, "E_v,o", lamp + l * panel.0),
+        ("hemispherical", 0, "E_v,hs", 0.25 * (lamp * (1.0 - 0.5) + l * (panel.0 + panel.1))),
+        ("cylindrical", 0, "E_v,z", lamp * sine / PI + l * panel.2),
+        ("semicylindrical", 0, "E_v,sz", 2.0 * lamp * sine / PI + l * panel.2),
+        ("semicylindrical", 1, "E_v,sz", l * panel.2),
+        ("semicylindrical", 2, "E_v,sz", lamp * sine / PI + l * panel.2),
     ]
 }
 

@@ -44,6 +44,8 @@ pub enum DirectionalError {
     NoResponse(f64),
     /// The response at an angle is not a finite number.
     NotFinite(f64),
+    /// A head that sees all round is not meant to follow the cosine of an angle from its normal.
+    SeesAllRound,
 }
 
 impl fmt::Display for DirectionalError {
@@ -52,6 +54,7 @@ impl fmt::Display for DirectionalError {
             Self::UpperAngle(angle) => write!(f, "the upper angle is {angle} rad; it must be above 0 and at most π/2"),
             Self::NoResponse(value) => write!(f, "the response along the normal is {value}; it must be finite and above 0"),
             Self::NotFinite(angle) => write!(f, "the response at {angle} rad is not a finite number"),
+            Self::SeesAllRound => write!(f, "a head that sees all round does not follow the cosine; this index is that of plane receptors"),
         }
     }
 }
@@ -64,9 +67,10 @@ impl std::error::Error for DirectionalError {}
 /// [`DirectionalError`].
 pub fn f2(acceptance: &Acceptance, azimuth_rad: f64, upper_rad: f64) -> Result<f64, DirectionalError> {
     let kinks = match acceptance {
-        Acceptance::Cosine => Vec::new(),
+        _ if acceptance.head().is_some() => return Err(DirectionalError::SeesAllRound),
         Acceptance::Cone { half_angle_rad } => vec![*half_angle_rad],
         Acceptance::Directional(table) => table.rotationally_symmetric().map_or_else(Vec::new, |(theta, _)| theta.to_vec()),
+        _ => Vec::new(),
     };
     let response = |angle_rad: f64| acceptance.at(angle_rad.cos(), angle_rad.sin(), azimuth_rad);
     f2_of_response(&response, &kinks, upper_rad)

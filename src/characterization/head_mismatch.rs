@@ -31,6 +31,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::Figure;
 use super::directional_mismatch::DirectionalError;
+use crate::sensor;
 
 /// Cells in θ of the finer of the two sums; even, so that the horizon is an edge.
 const CELLS_THETA: u32 = 360;
@@ -77,6 +78,29 @@ impl Head {
         }
     }
 
+    /// The head of a sensor.
+    #[must_use]
+    pub fn of(head: sensor::Head) -> Self {
+        match head {
+            sensor::Head::Spherical => Self::Spherical,
+            sensor::Head::Hemispherical => Self::Hemispherical,
+            sensor::Head::Cylindrical => Self::Cylindrical,
+            sensor::Head::Semicylindrical => Self::Semicylindrical,
+        }
+    }
+
+    /// The adjective: "cylindrical".
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Planar => "planar",
+            Self::Spherical => "spherical",
+            Self::Hemispherical => "hemispherical",
+            Self::Cylindrical => "cylindrical",
+            Self::Semicylindrical => "semicylindrical",
+        }
+    }
+
     /// Symbol of the index in [`super::class_limits`]; `None` where there are no limits.
     #[must_use]
     pub fn symbol(self) -> Option<&'static str> {
@@ -106,6 +130,17 @@ pub fn f2_of_head(head: Head, response: &dyn Fn(f64, f64) -> f64) -> Result<Figu
     let whole = mean(&|theta, phi| head.ideal(theta, phi) / ideal, 1)?;
     let (coarse, fine) = (mean(&deviation, 2)? / whole, mean(&deviation, 1)? / whole);
     Ok(Figure { value: fine, standard_uncertainty: (fine - coarse).abs() / 3f64.sqrt() + f64::EPSILON * fine })
+}
+
+/// Largest change of [`f2_of_head`] when the response changes by `error`, in the unit of the response, anywhere: its mean over the sphere
+/// beside that of the ideal.
+///
+/// # Errors
+/// [`DirectionalError`].
+pub fn change_of_f2(head: Head, reference: f64, error: &dyn Fn(f64, f64) -> f64) -> Result<f64, DirectionalError> {
+    let (theta, phi) = head.reference_rad();
+    let ideal = head.ideal(theta, phi);
+    Ok(mean(&|theta, phi| error(theta, phi).abs() / reference, 1)? / mean(&|theta, phi| head.ideal(theta, phi) / ideal, 1)?)
 }
 
 /// Mean over the sphere by the middles of cells of equal Δθ and Δφ, each with its exact share of the sphere.

@@ -4,11 +4,13 @@
 //! |---|---|---|
 //! | point | hemisphere, cone | closed form |
 //! | point | rotationally symmetric table | ∫ R dG over the closed form of the cone |
+//! | point | head that sees all round | `all_round.rs` |
 //! | disc or rectangle | hemisphere | solid angle of the aperture, coaxial discs, exchange of polygons where they apply |
 //! | disc or rectangle | any | adaptive quadrature of the point's formula over the aperture |
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::all_round;
 use super::closed_form::aperture::{self, Bounded, aperture_average};
 use super::closed_form::{cone, directional, disc, exchange, point, polygon, polygon_in_cone, sphere};
 use crate::geometry::mesh::Mesh;
@@ -43,6 +45,9 @@ pub(super) fn direct(scene: &Scene, sensor: &Sensor, pose: &Pose, source: &Sourc
 
 /// The same at one point of the aperture.
 pub(super) fn at_point(scene: &Scene, acceptance: &Acceptance, pose: &Pose, at: DVec3, source: &Source) -> Bounded {
+    if let Some(head) = acceptance.head() {
+        return all_round::at_point(scene, head, pose, at, source);
+    }
     let exact = |value: f64| Bounded { value, error: 0.0 };
     let response = |to: DVec3| {
         let (x, y, z) = (pose.x_axis.dot(to), pose.y_axis().dot(to), pose.normal.dot(to));
@@ -60,9 +65,6 @@ pub(super) fn at_point(scene: &Scene, acceptance: &Acceptance, pose: &Pose, at: 
                 elements.iter().map(|&(e, side)| within_cone(&scene.elements[e].shape, side, at, pose.normal, half_angle_rad)).sum()
             };
             match acceptance {
-                Acceptance::Cosine => {
-                    exact(elements.iter().map(|&(e, side)| over_hemisphere(&scene.elements[e].shape, side, at, pose.normal)).sum())
-                }
                 Acceptance::Cone { half_angle_rad } => exact(of_cone(*half_angle_rad)),
                 Acceptance::Directional(table) => {
                     let Some((theta, values)) = table.rotationally_symmetric() else {
@@ -72,6 +74,7 @@ pub(super) fn at_point(scene: &Scene, acceptance: &Acceptance, pose: &Pose, at: 
                     let breaks = edges_rad(scene, elements, at, pose.normal);
                     directional::weighted_by_table(&of_cone, &response, &breaks, TOLERANCE)
                 }
+                _ => exact(elements.iter().map(|&(e, side)| over_hemisphere(&scene.elements[e].shape, side, at, pose.normal)).sum()),
             }
         }
     }

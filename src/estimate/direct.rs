@@ -125,8 +125,7 @@ fn each_connection(
         for lane in 0..points.lanes {
             let at = receiver.point([u[2][lane], u[3][lane]]);
             let light = job.lights.sample(at, [u[0][lane], u[1][lane]]);
-            let cosine = receiver.pose.normal.dot(light.to);
-            g[lane] = if light.weight > 0.0 && cosine > 0.0 { light.weight * cosine * receiver.response(light.to) } else { 0.0 };
+            g[lane] = if light.weight > 0.0 { light.weight * receiver.received(light.to) } else { 0.0 };
             rays.active[lane] = g[lane] > 0.0;
             rays.origin.set(lane, at);
             rays.direction.set(lane, light.to);

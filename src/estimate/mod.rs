@@ -10,6 +10,7 @@
 //! |---|---|
 //! | `closed_form/` | formulas for unobstructed sources, as pure functions |
 //! | `deterministic.rs` | the direct terms that have one |
+//! | `all_round.rs` | the same at heads that have no horizon |
 //! | `light.rs`, `receiver.rs` | the two ends of a connection |
 //! | `direct.rs` | direct light of a source that may be hidden |
 //! | `sky.rs` | direct light of an environment that may be hidden |
@@ -24,6 +25,7 @@
 //! Values are weighted irradiances `∫ s(λ) E(λ) dλ`, means over the aperture; what an instrument makes of them is for
 //! `measurement` to say. Sums are geometric until they are asked for a channel, so radiances of any size are safe.
 
+mod all_round;
 mod batch;
 mod campaign;
 pub mod closed_form;

@@ -5,9 +5,10 @@ use std::f64::consts::PI;
 use crate::geometry::rays::NONE;
 use crate::geometry::shape::Shape;
 use crate::math::DVec3;
-use crate::math::sample::sample_disc;
+use crate::math::frame::world_from_local;
+use crate::math::sample::{sample_cone, sample_cosine_cone, sample_disc};
 use crate::scene::{Pose, Scene};
-use crate::sensor::{Acceptance, Aperture, Sensor};
+use crate::sensor::{Acceptance, Aperture, Head, Sensor};
 
 /// A sensor in a pose, prepared for sampling.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +19,10 @@ pub(super) struct Receiver<'a> {
     y_axis: DVec3,
     pub(super) acceptance: &'a Acceptance,
     pub(super) aperture: Aperture,
+    /// Where light from all round is weighed.
+    head: Option<Head>,
     /// Sine of the angle beyond which nothing is accepted.
-    pub(super) sine_limit: f64,
+    sine_limit: f64,
     /// The mesh on which the aperture lies, if any: rays do not meet it where they start.
     pub(super) resting_on: u32,
     /// The triangle of that mesh.
@@ -37,6 +40,7 @@ impl<'a> Receiver<'a> {
             y_axis: pose.y_axis(),
             acceptance: &sensor.acceptance,
             aperture: sensor.aperture,
+            head: sensor.acceptance.head(),
             sine_limit: if limit >= 0.5 * PI { 1.0 } else { limit.sin() },
             resting_on: place.mesh,
             resting_part: place.triangle,
@@ -63,9 +67,34 @@ impl<'a> Receiver<'a> {
         }
     }
 
+    /// What light from `to` counts, times the length of `to`: `R n·to` of a plane receptor, zero below its horizon; `w |to|` of a head.
+    #[inline(always)]
+    pub(super) fn received(&self, to: DVec3) -> f64 {
+        match self.head {
+            None => self.pose.normal.dot(to).max(0.0) * self.response(to),
+            Some(head) => head.weight_times_length(DVec3::new(self.pose.x_axis.dot(to), self.y_axis.dot(to), self.pose.normal.dot(to))),
+        }
+    }
+
+    /// A direction to look into, by two numbers, and what it counts over the density of its choice: cosθ/(π sin²α) within the limit of a
+    /// plane receptor, 1/4π for a head.
+    #[inline(always)]
+    pub(super) fn direction(&self, u: [f64; 2]) -> (DVec3, f64) {
+        match self.head {
+            None => {
+                let direction = world_from_local(self.pose.normal, sample_cosine_cone(u, self.sine_limit));
+                (direction, self.response(direction) * PI * self.sine_limit * self.sine_limit)
+            }
+            Some(_) => {
+                let direction = world_from_local(self.pose.normal, sample_cone(u, 2.0));
+                (direction, self.received(direction) * 4.0 * PI)
+            }
+        }
+    }
+
     /// The relative response R for light that comes from `to` (any length); zero below the horizon.
     #[inline(always)]
-    pub(super) fn response(&self, to: DVec3) -> f64 {
+    fn response(&self, to: DVec3) -> f64 {
         let cos = self.pose.normal.dot(to);
         if cos <= 0.0 {
             return 0.0;

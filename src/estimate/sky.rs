@@ -2,10 +2,9 @@
 //!
 //! ```text
 //! E = ∫ L R cosθ V dω = L ⟨ W V ⟩        W = R π sin²α, directions with density cosθ/(π sin²α)
+//!   = L ∫ w V dω = L ⟨ W V ⟩                W = 4π w, all directions alike, at a head without a horizon
 //! E = L ⟨ β W₀ + W (V − β) ⟩             W₀ = ∫ R cosθ dω, β the share that a pilot run found clear
 //! ```
-
-use std::f64::consts::PI;
 
 use multiversion::multiversion;
 
@@ -15,9 +14,7 @@ use super::receiver::Receiver;
 use super::{Counters, REPLICATES};
 use crate::geometry::rays::{LANES, Rays};
 use crate::geometry::world::World;
-use crate::math::frame::world_from_local;
 use crate::math::random::Stream;
-use crate::math::sample::sample_cosine_cone;
 
 /// Directions of the pilot run.
 const PILOT: u32 = 64;
@@ -60,20 +57,20 @@ fn each_direction(world: &World, receiver: &Receiver<'_>, streams: &[Stream], ra
     let mut rays = Rays::none();
     rays.leaving = [receiver.resting_on; LANES];
     rays.leaving_part = [receiver.resting_part; LANES];
-    let full = PI * receiver.sine_limit * receiver.sine_limit;
+    let mut w = [0.0; LANES];
     each_sixteen(streams, range, |points| {
         let u = &points.u;
         rays.active = [false; LANES];
         for lane in 0..points.lanes {
-            let direction = world_from_local(receiver.pose.normal, sample_cosine_cone([u[0][lane], u[1][lane]], receiver.sine_limit));
+            let (direction, counts) = receiver.direction([u[0][lane], u[1][lane]]);
+            w[lane] = counts;
             rays.active[lane] = true;
             rays.origin.set(lane, receiver.point([u[2][lane], u[3][lane]]));
             rays.direction.set(lane, direction);
         }
         let blocked = world.blocked(&rays);
         for lane in 0..points.lanes {
-            let w = full * receiver.response(rays.direction.get(lane));
-            take(points.replicate[lane], w, !blocked[lane]);
+            take(points.replicate[lane], w[lane], !blocked[lane]);
         }
     });
 }

@@ -12,7 +12,7 @@
 //!
 //! ```text
 //! itself      O is the piece of S that shines: plane or a sphere, a convex closed mesh, or a mesh on one side of each of its triangles
-//! unseen      O is below the horizon, or outside the acceptance, of every pose
+//! unseen      O is below the horizon (heads that see all round have none), or outside the acceptance, of every pose
 //! behind      O lies wholly in m · (x − q) ≤ 0, behind the plane of a flat source
 //! same side   with the distance d from the plane of O, or d = |x − c| − R from a sphere: d ≤ 0 or d ≥ 0 for apertures and S alike
 //!             (for a sphere d ≤ 0 only: a ball is convex, what is outside of it is not)
@@ -107,7 +107,7 @@ pub(crate) struct Shafts {
 impl Shafts {
     pub(crate) fn new(scene: &Scene, instrument: &Instrument) -> Shafts {
         let reach = instrument.sensor.aperture.radius_m();
-        let limit = instrument.sensor.acceptance.limit_rad();
+        let (limit, horizon) = (instrument.sensor.acceptance.limit_rad(), instrument.sensor.acceptance.has_horizon());
         let (low, high) = instrument.bounds();
         let centre = low + 0.5 * (high - low);
         let radius_m = instrument.poses.iter().map(|p| (p.at - centre).length()).fold(0.0, f64::max) + reach;
@@ -116,7 +116,7 @@ impl Shafts {
             .iter()
             .map(|e| {
                 instrument.poses.iter().all(|p| {
-                    e.shape.extent_along(p.at, p.normal).1 <= 0.0
+                    (horizon && e.shape.extent_along(p.at, p.normal).1 <= 0.0)
                         || (limit < 0.5 * PI && smallest_angle_of_shape_rad(p, reach, &e.shape) > limit)
                 })
             })

@@ -25,6 +25,7 @@
 //! | `temperature: (coefficient_percent_per_k: 0.1, adjusted_at_c: 25, used_at_c: 35)` | the indication is multiplied by 1 + c (T − T₀) |
 //! | `ideal: Band(from_nm: 400, to_nm: 700)` | what an ideal channel weighs light with, where the quantity does not say it |
 
+use super::acceptance_reader::words_of_head;
 use super::adjustment::{System, read_luminous_scale, read_optional_adjustment};
 use super::decode::{Fields, Value};
 use super::document::{Body, Kind};
@@ -125,6 +126,10 @@ pub(super) fn read_channel(
                 *curve = counted(curve.clone());
             }
         }
+    }
+    // What the file names itself keeps its name.
+    if reads.name() != "Weighted" {
+        channel.reads = words_of_head(&channel.reads, acceptance.and_then(Acceptance::head));
     }
     Some(channel)
 }
@@ -259,6 +264,15 @@ pub(super) fn scotopic_illuminance() -> Measurand {
 
 /// Notes a problem if the acceptance of a channel that reads a radiance has no solid angle.
 pub(super) fn has_solid_angle(value: &Value, acceptance: Option<&Acceptance>, reading: &mut Reading) -> bool {
+    if let Some(head) = acceptance.and_then(Acceptance::head) {
+        value.problem_at(
+            &value.name_span(),
+            &mut reading.problems,
+            format!("`{}` is seen in a direction, but a {} receptor sees all round", value.name(), head.name()),
+            "read `Illuminance` or `Irradiance`, or give an acceptance with a direction, such as `Cone(half_angle_deg: 0.5)`",
+        );
+        return false;
+    }
     if acceptance.is_none_or(|a| a.projected_solid_angle_sr() > 0.0) {
         return true;
     }

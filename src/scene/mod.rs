@@ -18,6 +18,7 @@
 //! | `reader` | the scene as a whole |
 //! | `checks` | what only the scene as a whole can show |
 
+mod acceptance_reader;
 mod adjustment;
 mod channel_reader;
 mod checks;

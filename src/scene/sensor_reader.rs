@@ -12,16 +12,16 @@
 //! | part | how it is written |
 //! |---|---|
 //! | aperture | `Point`, `Disc(radius_mm: 5)`, `Rectangle(width_mm: 10, height_mm: 8)`; `_m` for metres |
-//! | acceptance | `Cosine`, `Cone(half_angle_deg: 0.5)`, `Directional("directional.csv")` |
+//! | acceptance | `Cosine`, `Cone(half_angle_deg: 0.5)`, `Cylindrical` and more (`acceptance_reader.rs`) |
 //! | channels | a list of `(name: …, responsivity: …, reads: …)` (`channel_reader.rs`) and `Observer("CIE 1931")` (`observer_reader.rs`), or one `Observer(…)` |
 //! | readout | none, or `Photodiode(…)` (`readout_reader.rs`) |
 
 use std::sync::Arc;
 
+use super::acceptance_reader::{read_acceptance, words_of_head};
 use super::channel_reader::read_channel;
 use super::decode::{Fields, Value};
 use super::diagnostic::Diagnostics;
-use super::directional_table::read_directional;
 use super::document::Kind;
 use super::files::{Files, normalised, root_of};
 use super::observer_reader::{is_observer, read_observer};
@@ -88,8 +88,17 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
     let before = problems.count();
     let fields = value.fields("`Sensor`", &["title", "aperture", "acceptance", "channels", "readout"], problems)?;
     let title = fields.get("title").and_then(|title| title.text(problems)).unwrap_or(name).to_string();
-    let aperture = fields.require("aperture", "Point", problems).and_then(|v| read_aperture(&v, reading));
+    let aperture_value = fields.require("aperture", "Point", problems);
+    let aperture = aperture_value.as_ref().and_then(|v| read_aperture(v, reading));
     let acceptance = fields.require("acceptance", "Cosine", &mut reading.problems).and_then(|v| read_acceptance(&v, reading));
+    let head = acceptance.as_ref().and_then(Acceptance::head);
+    if let (Some(head), Some(value)) = (head, aperture_value.filter(|_| aperture.is_some_and(|a| a != Aperture::Point))) {
+        value.problem(
+            &mut reading.problems,
+            format!("a {} receptor is a point here", head.name()),
+            "give `aperture: Point`; its readings are per area of the receptor, whatever its size",
+        );
+    }
     let channels = fields.require("channels", "[(name: \"E_v\", responsivity: \"V\", reads: Illuminance)]", &mut reading.problems);
     let items =
         channels.as_ref().and_then(|v| if is_observer(v) { Some(vec![v.clone()]) } else { v.list("channels", &mut reading.problems) });
@@ -97,7 +106,9 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
     for item in items.iter().flatten() {
         let observer = is_observer(item);
         let channels = if observer {
-            read_observer(item, acceptance.as_ref(), reading).unwrap_or_default()
+            let mut channels = read_observer(item, acceptance.as_ref(), reading).unwrap_or_default();
+            channels.iter_mut().for_each(|channel| channel.reads = words_of_head(&channel.reads, head));
+            channels
         } else {
             read_channel(item, aperture, acceptance.as_ref(), reading).into_iter().collect()
         };
@@ -179,34 +190,6 @@ fn read_aperture(value: &Value, reading: &mut Reading) -> Option<Aperture> {
             let fields = value.fields("`Rectangle`", &["width_mm", "height_mm", "width_m", "height_m"], &mut reading.problems)?;
             let (width, height) = (read_length(value, &fields, "width", reading), read_length(value, &fields, "height", reading));
             Some(Aperture::Rectangle { half_width_m: 0.5 * width?, half_height_m: 0.5 * height? })
-        }
-    }
-}
-
-fn read_acceptance(value: &Value, reading: &mut Reading) -> Option<Acceptance> {
-    match value.variant("an acceptance", &["Cosine", "Cone", "Directional"], &mut reading.problems)? {
-        "Cosine" => value.without_brackets(&mut reading.problems).map(|()| Acceptance::Cosine),
-        "Cone" => {
-            let problems = &mut reading.problems;
-            let angle = value.fields("`Cone`", &["half_angle_deg"], problems)?.require("half_angle_deg", "0.5", problems)?;
-            let half_angle_deg = angle.number(problems)?;
-            if half_angle_deg == 0.0 {
-                angle.problem(
-                    problems,
-                    "an acceptance of zero collects nothing",
-                    "give a half-angle above 0°, such as `half_angle_deg: 0.5`",
-                );
-                return None;
-            }
-            if !(half_angle_deg > 0.0 && half_angle_deg <= 90.0) {
-                angle.problem(problems, format!("the half-angle is {half_angle_deg}°"), "allowed: above 0° to 90°");
-                return None;
-            }
-            Some(Acceptance::Cone { half_angle_rad: half_angle_deg.to_radians() })
-        }
-        _ => {
-            let name = value.positional(1, "Directional(\"directional.csv\")", &mut reading.problems)?.into_iter().next()?;
-            read_directional(&name, reading).map(Acceptance::Directional)
         }
     }
 }

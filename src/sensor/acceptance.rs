@@ -8,10 +8,14 @@
 //! | cosine hemisphere | `Cosine` | 1 up to θ = 90° |
 //! | cone | `Cone(half_angle_deg: 0.5)` | 1 up to the half-angle, 0 beyond |
 //! | table | `Directional("directional.csv")` | piecewise linear in θ and φ, 1 at θ = 0 |
+//! | small heads at a point | `Spherical`, `Hemispherical`, `Cylindrical`, `Semicylindrical` | none: a weight w(ω) over all directions, `head.rs` |
 //!
-//! θ is counted from the sensor's normal, φ from its x axis towards its y axis.
+//! A fibre, `NumericalAperture(0.22)`, is a cone of half-angle asin(NA) in air. θ is counted from the sensor's normal, φ from its x axis towards its y axis.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::Head;
+use crate::math::DVec3;
 
 /// The relative directional response of a sensor.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +29,14 @@ pub enum Acceptance {
     },
     /// A table.
     Directional(DirectionalResponse),
+    /// A small sphere: every direction alike.
+    Spherical,
+    /// A small hemisphere, its pole along the normal.
+    Hemispherical,
+    /// A small cylinder, its axis along the normal.
+    Cylindrical,
+    /// Half a small cylinder about the sensor's y axis, its front along the normal.
+    Semicylindrical,
 }
 
 /// A tabulated directional response, bilinear between its nodes.
@@ -102,16 +114,50 @@ impl DirectionalResponse {
 }
 
 impl Acceptance {
-    /// R in the direction of (cos θ, φ); zero below the horizon.
+    /// The head, where light from all round is weighed rather than a plane lit.
+    #[must_use]
+    pub fn head(&self) -> Option<Head> {
+        match self {
+            Acceptance::Cosine | Acceptance::Cone { .. } | Acceptance::Directional(_) => None,
+            Acceptance::Spherical => Some(Head::Spherical),
+            Acceptance::Hemispherical => Some(Head::Hemispherical),
+            Acceptance::Cylindrical => Some(Head::Cylindrical),
+            Acceptance::Semicylindrical => Some(Head::Semicylindrical),
+        }
+    }
+
+    /// Whether nothing is accepted from below the plane of the aperture. Heads see all round.
+    #[must_use]
+    pub fn has_horizon(&self) -> bool {
+        self.head().is_none()
+    }
+
+    /// What a radiance from `to_local` counts, per steradian: `R cos θ` of a plane receptor, `w` of a head. `to_local`, of any length but zero,
+    /// points to where the light comes from, in the sensor's frame x, y, normal.
+    #[must_use]
+    pub fn weight(&self, to_local: DVec3) -> f64 {
+        if let Some(head) = self.head() {
+            return head.weight(to_local);
+        }
+        let DVec3 { x, y, z } = to_local;
+        let length = to_local.length();
+        if z > 0.0 { self.at(z, x.hypot(y), y.atan2(x)) * z / length } else { 0.0 }
+    }
+
+    /// R in the direction of (cos θ, φ); zero below the horizon. A head has no R and no horizon: this is its weight w.
     #[must_use]
     pub fn at(&self, cos_theta: f64, sin_theta: f64, phi_rad: f64) -> f64 {
+        if let Some(head) = self.head() {
+            let (sin, cos) = phi_rad.sin_cos();
+            return head.weight(DVec3::new(sin_theta * cos, sin_theta * sin, cos_theta));
+        }
         if cos_theta <= 0.0 {
             return 0.0;
         }
         match self {
-            Acceptance::Cosine => 1.0,
             Acceptance::Cone { half_angle_rad } => f64::from(sin_theta.atan2(cos_theta) <= *half_angle_rad),
             Acceptance::Directional(table) => table.at(sin_theta.atan2(cos_theta), phi_rad),
+            _ => 1.0,
         }
     }
 
@@ -122,14 +168,16 @@ impl Acceptance {
             Acceptance::Cosine => FRAC_PI_2,
             Acceptance::Cone { half_angle_rad } => *half_angle_rad,
             Acceptance::Directional(table) => table.theta_rad[table.theta_rad.len() - 1].min(FRAC_PI_2),
+            Acceptance::Spherical | Acceptance::Hemispherical | Acceptance::Cylindrical | Acceptance::Semicylindrical => PI,
         }
     }
 
-    /// `∫ R cosθ dω` over the hemisphere, sr: what a uniform radiance of one gives.
+    /// `∫ R cosθ dω` over the hemisphere, for a head `∫ w dω` over all directions, sr: what a uniform radiance of one gives.
     #[must_use]
     pub fn projected_solid_angle_sr(&self) -> f64 {
         match self {
-            Acceptance::Cosine => PI,
+            Acceptance::Spherical => Head::Spherical.total_sr(),
+            Acceptance::Cosine | Acceptance::Hemispherical | Acceptance::Cylindrical | Acceptance::Semicylindrical => PI,
             Acceptance::Cone { half_angle_rad } => PI * half_angle_rad.sin().powi(2),
             Acceptance::Directional(table) => table.projected_solid_angle_sr(),
         }

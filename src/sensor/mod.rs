@@ -8,17 +8,20 @@
 //! |---|---|---|
 //! | aperture | `aperture.rs` | where light enters: `A` |
 //! | acceptance | `acceptance.rs` | from which directions, and how well: `R(ω)` |
+//! | head | `head.rs` | the weight `w(ω)` of receptors that see all round |
 //! | channel | `channel.rs` | how well each wavelength counts, `s(λ)`, and what is read off |
 //! | readout | `photodiode.rs` | from a photocurrent to what is displayed: noise, range, steps |
 
 pub mod acceptance;
 pub mod aperture;
 pub mod channel;
+pub mod head;
 pub mod photodiode;
 
 pub use acceptance::{Acceptance, DirectionalResponse};
 pub use aperture::Aperture;
 pub use channel::{Channel, ResponsivityKind, ResponsivityUncertainty, TemperatureCoefficient, Weighting};
+pub use head::{Head, HeadWeights};
 pub use photodiode::Photodiode;
 
 /// A sensor, without a place in a scene.

@@ -12,6 +12,7 @@
 //! | inverse square, cosine | 1e-9 | – |
 //! | order of the items of a scene | 1e-9 | 4 u |
 //! | spectra: a line is a line, nodes do not matter, σT⁴ | 1e-9 | – |
+//! | heads that see all round: totals, mean over azimuth, sums | 1e-9 | 4 u |
 //! | methods: formulas and samples agree | – | 4 u |
 
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
@@ -19,6 +20,7 @@
 mod bench;
 mod cosine;
 mod energy_balance;
+mod heads;
 mod inverse_square;
 mod linearity;
 mod methods;

@@ -21,6 +21,8 @@ use crate::spectrum::Density;
 
 /// Poses of each of the two scans.
 const POSES: u32 = 400;
+/// Rays of the screen.
+const SAMPLES: u64 = 1 << 15;
 /// How much wider than the field the black disc is.
 const BLACK_OVER_FIELD: f64 = 1.1;
 /// Distance of the screen in radii of the aperture, for a field of 1 rad; and the radius that stands for a point, m.
@@ -86,12 +88,13 @@ impl Bench<'_> {
             front: 0,
             back: 0,
         };
+        let stop = Stop { target: None, budget_seconds: None, samples: Some(SAMPLES) };
         let read = |elements: Vec<Element>| {
             let emitter = Emitter::Area { elements: vec![(0, Side::Front)] };
             let sources = vec![Source { name: "screen".to_owned(), emitter, density: spectrum.clone() }];
             let sensor = self.sensor.clone();
             let set_up = SetUp { sources, elements };
-            self.read_with(&sensor, set_up, vec![turned(0.0, 0.0)], &PlanOptions::default(), &Stop::default())
+            self.read_with(&sensor, set_up, vec![turned(0.0, 0.0)], &PlanOptions::default(), &stop)
         };
         // So far that the aperture, seen from there, is small beside the gap between field and black disc.
         let far_m = APART / half_angle_rad * self.sensor.aperture.radius_m().max(NO_APERTURE_M);

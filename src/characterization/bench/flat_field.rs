@@ -7,7 +7,7 @@
 //! The plan is the naive one: every term by rays, nothing by formula. It is the one apparatus that shares nothing with the closed forms,
 //! and whose uncertainty is statistical.
 
-use super::{Bench, BenchError, SetUp, quotient, turned};
+use super::{Bench, BenchError, SetUp, quotient};
 use crate::characterization::Figure;
 use crate::estimate::Stop;
 use crate::plan::PlanOptions;
@@ -28,7 +28,7 @@ impl Bench<'_> {
         let options = PlanOptions { naive: true, ..PlanOptions::default() };
         let stop = Stop { target: None, budget_seconds: None, samples: Some(SAMPLES) };
         let sensor = self.sensor.clone();
-        let flat = self.read_with(&sensor, set_up, vec![turned(0.0, 0.0)], &options, &stop)?[0][channel];
+        let flat = self.read_with(&sensor, set_up, vec![self.reference], &options, &stop)?[0][channel];
         let beam = self.along_normal(channel, spectrum)?;
         if beam.value > 0.0 { Ok(quotient(&flat, &beam)) } else { Err(self.dark(channel, "a beam along its normal")) }
     }

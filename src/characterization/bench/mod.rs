@@ -10,6 +10,7 @@
 //! | `monochromator` | a parallel beam of one wavelength after the other | s(λ), relative |
 //! | `substitution` | the sensor and an ideal meter in turn before the same lamp | reading over truth |
 //! | `attenuator` | one lamp over decades of strength | Y(X)/X |
+//! | `sphere` | a parallel beam from all round | w(θ, φ) of a head |
 //! | `field` | a narrow beam across the edge of a cone; a bright surround with a black middle | half-angle, stray light |
 //! | `flat_field` | a uniform luminous hemisphere, sampled by rays | ∫ R cos θ dω |
 //!
@@ -22,9 +23,11 @@ pub mod flat_field;
 pub mod goniometer;
 pub mod monochromator;
 pub mod sampling;
+pub mod sphere;
 pub mod substitution;
 
 use std::cell::Cell;
+use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 use std::sync::Arc;
 
@@ -34,7 +37,7 @@ use crate::math::DVec3;
 use crate::measurement::measure;
 use crate::plan::{Plan, PlanError, PlanOptions};
 use crate::scene::{Element, Instrument, Layout, Pose, Scene};
-use crate::sensor::Sensor;
+use crate::sensor::{Acceptance, Sensor};
 use crate::source::{Emitter, Source};
 use crate::spectrum::{Density, SpectrumError};
 use crate::surface::Surface;
@@ -91,6 +94,7 @@ impl From<SpectrumError> for BenchError {
 /// A bench with a sensor on it.
 pub struct Bench<'a> {
     sensor: Arc<Sensor>,
+    reference: Pose,
     seed: u64,
     watch: &'a Watch<'a>,
     readings: Cell<usize>,
@@ -98,9 +102,26 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// A bench for a sensor. The seed serves the readings that are sampled.
-    pub fn new(sensor: Arc<Sensor>, seed: u64, watch: &'a Watch<'a>) -> Self {
-        Self { sensor, seed, watch, readings: Cell::new(0), rays: Cell::new(0) }
+    /// A bench for a sensor, which faces the beam but for a cylinder, which has it at its side. The seed serves the readings that are sampled.
+    ///
+    /// The stated uncertainty of the responsivity is left out: it is the same in all readings and would not cancel in their quotients.
+    pub fn new(mut sensor: Sensor, seed: u64, watch: &'a Watch<'a>) -> Self {
+        sensor.channels.iter_mut().for_each(|channel| channel.responsivity_uncertainty.clear());
+        let sensor = Arc::new(sensor);
+        let theta = if sensor.acceptance == Acceptance::Cylindrical { FRAC_PI_2 } else { 0.0 };
+        Self { sensor, reference: turned(theta, 0.0), seed, watch, readings: Cell::new(0), rays: Cell::new(0) }
+    }
+
+    /// The same bench with another sensor on it; what is read there is counted by [`Bench::count`].
+    pub fn with(&self, sensor: Sensor) -> Bench<'a> {
+        Bench::new(sensor, self.seed, self.watch)
+    }
+
+    /// Adds what was read on another bench.
+    pub fn count(&self, other: &Bench<'_>) {
+        let (readings, rays) = other.tally();
+        self.readings.set(self.readings.get() + readings);
+        self.rays.set(self.rays.get() + rays);
     }
 
     /// The sensor.
@@ -173,6 +194,11 @@ fn turned(theta_rad: f64, phi_rad: f64) -> Pose {
     Pose { at: DVec3::ZERO, normal: DVec3::new(-sin, 0.0, cos), x_axis: DVec3::new(cos * cos_phi, -sin_phi, sin * cos_phi) }
 }
 
+/// The pose in which light from +z comes in from the direction `to_local` of the sensor's frame.
+fn turned_towards(to_local: DVec3) -> Pose {
+    turned(to_local.x.hypot(to_local.y).atan2(to_local.z), to_local.y.atan2(to_local.x))
+}
+
 /// a/b with the uncertainty of both.
 fn quotient(a: &Figure, b: &Figure) -> Figure {
     let value = a.value / b.value;
@@ -189,8 +215,10 @@ mod tests {
     fn turned_sensors_see_the_beam_where_it_is() {
         for (theta, phi) in [(0.0, 0.0), (0.3, 1.0), (1.2, 4.0), (2.5, -0.7)] {
             let pose = turned(theta, phi);
-            let local = DVec3::new(pose.x_axis.z, pose.y_axis().z, pose.normal.z);
             let expected = DVec3::new(f64::sin(theta) * f64::cos(phi), f64::sin(theta) * f64::sin(phi), f64::cos(theta));
+            let again = turned_towards(expected);
+            assert!((again.normal - pose.normal).length() < 1e-14 && (again.x_axis - pose.x_axis).length() < 1e-14);
+            let local = DVec3::new(pose.x_axis.z, pose.y_axis().z, pose.normal.z);
             assert!((local - expected).length() < 1e-15, "{theta} {phi}: {local}");
             assert!(pose.normal.dot(pose.x_axis).abs() < 1e-15 && (pose.x_axis.length() - 1.0).abs() < 1e-15);
         }

@@ -6,7 +6,7 @@
 //!
 //! Lines and not bands: a reading is s(λ) at that wavelength and no mean over a slit.
 
-use super::{Bench, BenchError, beam, turned};
+use super::{Bench, BenchError, beam};
 use crate::characterization::Figure;
 use crate::spectrum::Density;
 
@@ -29,7 +29,7 @@ impl Bench<'_> {
         let wavelengths_nm: Vec<f64> = (0..=steps).map(|k| from_nm + step_nm * f64::from(k)).collect();
         let mut readings = vec![Vec::with_capacity(wavelengths_nm.len()); self.sensor.channels.len()];
         for nm in &wavelengths_nm {
-            let read = self.read(vec![beam(Density::line(*nm, 1.0)?)], vec![turned(0.0, 0.0)])?;
+            let read = self.read(vec![beam(Density::line(*nm, 1.0)?)], vec![self.reference])?;
             for (channel, figure) in readings.iter_mut().zip(&read[0]) {
                 channel.push(*figure);
             }

@@ -20,7 +20,7 @@ impl Bench<'_> {
     /// # Errors
     /// If the engine has no reading.
     pub fn along_normal(&self, channel: usize, spectrum: &Density) -> Result<Figure, BenchError> {
-        let read = self.read(vec![beam(spectrum.clone())], vec![turned(0.0, 0.0)])?;
+        let read = self.read(vec![beam(spectrum.clone())], vec![self.reference])?;
         Ok(read[0][channel])
     }
 

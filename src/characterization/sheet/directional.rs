@@ -4,20 +4,22 @@
 //! |---|---|---|---|
 //! | planar | f2 | integrals of the table | straight lines through the readings of the goniometer |
 //! | planar | flat field | ∫ R cos θ dω | a uniform hemisphere, sampled by rays |
+//! | head | f2,0, f2,z, … | its weight over the sphere | bilinear between a beam from all round |
 //! | cone | half-angle, edge | the half-angle, 0 | a beam led across the edge |
 //! | cone | surrounding field | 0 | a bright screen with a black middle |
 
 use std::f64::consts::{PI, TAU};
 
-use super::spectral::seen_by;
+use super::spectral::{is_illuminance, seen_by};
 use super::{Absent, Index, SheetError};
 use crate::characterization::Figure;
 use crate::characterization::bench::Bench;
 use crate::characterization::bench::goniometer::Goniogram;
 use crate::characterization::bench::sampling::halving_error;
+use crate::characterization::bench::sphere::to_local;
 use crate::characterization::class_limits::limits;
 use crate::characterization::directional_mismatch::{DirectionalError, f2, f2_of_response};
-use crate::quantity::Measurand;
+use crate::characterization::head_mismatch::{Head, change_of_f2, f2_of_head};
 use crate::sensor::Acceptance;
 
 /// Upper angle of f2, degrees.
@@ -40,13 +42,16 @@ pub enum Receptor {
         /// Half-angle, rad.
         half_angle_rad: f64,
     },
+    /// Weighs light from all round.
+    Head(Head),
 }
 
 impl Receptor {
     fn of(acceptance: &Acceptance) -> Self {
-        match acceptance {
-            Acceptance::Cosine | Acceptance::Directional(_) => Self::Planar,
-            Acceptance::Cone { half_angle_rad } => Self::Cone { half_angle_rad: *half_angle_rad },
+        match (acceptance, acceptance.head()) {
+            (_, Some(head)) => Self::Head(Head::of(head)),
+            (Acceptance::Cone { half_angle_rad }, None) => Self::Cone { half_angle_rad: *half_angle_rad },
+            _ => Self::Planar,
         }
     }
 }
@@ -64,7 +69,43 @@ pub(super) fn characterise(bench: &Bench<'_>) -> Result<Directional, SheetError>
     match receptor {
         Receptor::Planar => planar(bench),
         Receptor::Cone { half_angle_rad } => cone(bench, half_angle_rad),
+        Receptor::Head(head) => all_round(bench, head),
     }
+}
+
+/// Whether the limits of illuminance meters apply.
+fn is_lux_meter(bench: &Bench<'_>) -> bool {
+    bench.sensor().channels.iter().any(is_illuminance)
+}
+
+fn all_round(bench: &Bench<'_>, head: Head) -> Result<Directional, SheetError> {
+    let sensor = bench.sensor();
+    let sphere = bench.sphere(0, &seen_by(&sensor.channels[0])?, head)?;
+    let computed = f2_of_head(head, &|theta, phi| sensor.acceptance.weight(to_local(head, theta, phi)))?;
+    let between = f2_of_head(head, &|theta, phi| sphere.at(theta, phi, false))?;
+    let (theta, phi) = head.reference_rad();
+    let reference = sphere.at(theta, phi, false);
+    let apart = change_of_f2(head, reference, &|theta, phi| sphere.at(theta, phi, false) - sphere.at(theta, phi, true))?;
+    let read = change_of_f2(head, reference, &|_, _| sphere.standard_uncertainty())?;
+    let u = (apart / 3f64.sqrt()).hypot(read).hypot(between.standard_uncertainty);
+    let (symbol, name) = match head {
+        Head::Planar => ("f2", "directional response"),
+        Head::Spherical => ("f2,0", "directional response, spherical head"),
+        Head::Hemispherical => ("f2,h", "directional response, hemispherical head"),
+        Head::Cylindrical => ("f2,z", "directional response, cylindrical head"),
+        Head::Semicylindrical => ("f2,zh", "directional response, semicylindrical head"),
+    };
+    let index = Index {
+        symbol,
+        name,
+        unit: "%",
+        computed: Figure { standard_uncertainty: computed.standard_uncertainty.max(1e-12), ..computed }.scaled(PERCENT),
+        measured: Figure { value: between.value, standard_uncertainty: u }.scaled(PERCENT),
+        stated_u: 0.0,
+        limits: if is_lux_meter(bench) { head.symbol().and_then(limits) } else { None },
+        conditions: "weighted with the ideal of the head over the whole sphere".to_owned(),
+    };
+    Ok(Directional { receptor: Receptor::Head(head), indices: vec![index], absent: Vec::new(), goniogram: None })
 }
 
 fn planar(bench: &Bench<'_>) -> Result<Directional, SheetError> {
@@ -88,7 +129,7 @@ fn planar(bench: &Bench<'_>) -> Result<Directional, SheetError> {
         computed: Figure::exact(computed, 1.0).scaled(PERCENT),
         measured: measured.scaled(PERCENT),
         stated_u: 0.0,
-        limits: if sensor.channels.iter().any(|channel| channel.reads == Measurand::Illuminance) { limits("f2") } else { None },
+        limits: if is_lux_meter(bench) { limits("f2") } else { None },
         conditions: format!("ε up to {LARGEST_ANGLE_DEG}°{planes}"),
     };
     let along_normal = acceptance.at(1.0, 0.0, 0.0);

@@ -9,6 +9,7 @@
 //! |---|---|
 //! | `target` | what a channel is meant to weigh with |
 //! | `spectral` | f1′, u, r, mean wavelength, mismatch factors of lamps |
+//! | `readout` | f3, f11 |
 //! | `directional` | f2, flat field, measuring field |
 //! | `mod.rs` | indices, classes, the sheet as a whole |
 //!
@@ -28,11 +29,11 @@
 //! ```
 
 mod directional;
+mod readout;
 mod spectral;
 mod target;
 
 use std::fmt;
-use std::sync::Arc;
 
 pub use directional::{LARGEST_ANGLE_DEG, Receptor};
 pub use spectral::LAMPS;
@@ -255,7 +256,8 @@ fn meter(sensor: &Sensor, options: &Options, watch: &Watch<'_>) -> Result<DataSh
     if !(0.1..=20.0).contains(&options.step_nm) {
         return Err(SheetError::Step(options.step_nm));
     }
-    let bench = Bench::new(Arc::new(sensor.clone()), options.seed, watch);
+    // The optical part by itself; the electronics come in where they are the subject.
+    let bench = Bench::new(Sensor { readout: None, ..sensor.clone() }, options.seed, watch);
     let directional = directional::characterise(&bench)?;
     (watch.progress)(0.3);
     let (from_nm, to_nm) = spectral::range_nm(sensor);
@@ -263,8 +265,8 @@ fn meter(sensor: &Sensor, options: &Options, watch: &Watch<'_>) -> Result<DataSh
     (watch.progress)(0.7);
     let mut channels = Vec::with_capacity(sensor.channels.len());
     for (index, channel) in sensor.channels.iter().enumerate() {
-        let mut sheet = spectral::characterise(&bench, index, &spectrogram)?;
-        if channel.reads == Measurand::Illuminance {
+        let mut sheet = spectral::characterise(&bench, sensor, index, &spectrogram)?;
+        if spectral::is_illuminance(channel) {
             let all = || sheet.indices.iter().chain(&directional.indices);
             let judged: Vec<_> = all().filter_map(|i| Some((i.limits?, i.measured.value, i.standard_uncertainty()))).collect();
             sheet.class = class_limits::worst(&judged);

@@ -6,16 +6,15 @@
 //! | u, r | exact integrals | a lamp with and without filter, sensor and ideal meter |
 //! | λ̄ | exact integrals | straight lines through the readings |
 //! | F of a lamp | exact integrals | sensor and ideal meter in turn before the lamp |
-//! | f3 | 0 by the equation of a sensor without readout | one lamp over decades of strength |
 
-use super::{Absent, ChannelSheet, Index, Lamp, Responsivity, SheetError, Target};
+use super::{Absent, ChannelSheet, Index, Lamp, Responsivity, SheetError, Target, readout};
+use crate::characterization::Figure;
 use crate::characterization::bench::Bench;
 use crate::characterization::bench::monochromator::Spectrogram;
 use crate::characterization::bench::sampling::Sampled;
 use crate::characterization::class_limits::{Limits, limits};
 use crate::characterization::out_of_band::{Arrangement, response, share_behind};
 use crate::characterization::spectral_mismatch::{MismatchError, Wavelengths, correction_factor, mean_wavelength_nm, mismatch_index};
-use crate::characterization::{Figure, linearity};
 use crate::quantity::Measurand;
 use crate::sensor::{Channel, ResponsivityUncertainty, Sensor};
 use crate::spectrum::{Density, Factor, library};
@@ -29,8 +28,6 @@ pub const LAMPS: [&str; 24] = [
 /// Wavelengths that the monochromator covers at least, and at most, nm.
 const RANGE_NM: (f64, f64) = (300.0, 1100.0);
 const WIDEST_NM: (f64, f64) = (200.0, 2500.0);
-/// Strengths of the attenuator over that of reference: seven decades.
-const STRENGTHS: [f64; 8] = [1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3];
 const PERCENT: f64 = 100.0;
 
 /// The range of the monochromator for a sensor, whole nm.
@@ -51,12 +48,18 @@ pub(super) fn seen_by(channel: &Channel) -> Result<Density, SheetError> {
     Ok(Density::line(best.unwrap_or(WIDEST_NM.0), 1.0)?)
 }
 
+/// Whether a channel reads an illuminance, of whatever receptor: the limits of classes are for those.
+pub(super) fn is_illuminance(channel: &Channel) -> bool {
+    let of_head = matches!(&channel.reads, Measurand::Weighted { .. }) && channel.reads.name().ends_with("cal illuminance");
+    channel.reads == Measurand::Illuminance || of_head
+}
+
 /// Indices of one channel.
-pub(super) fn characterise(bench: &Bench<'_>, index: usize, spectrogram: &Spectrogram) -> Result<ChannelSheet, SheetError> {
-    let channel = &bench.sensor().channels[index];
+pub(super) fn characterise(bench: &Bench<'_>, full: &Sensor, index: usize, spectrogram: &Spectrogram) -> Result<ChannelSheet, SheetError> {
+    let channel = &full.channels[index];
     let told = |error: MismatchError| SheetError::Spectral { channel: channel.name.clone(), error };
     let subject = Subject { bench, index, channel, sampled: Sampled::responsivity(spectrogram, index)? };
-    let target = Target::of(&channel.reads);
+    let target = Target::of(channel);
     let (mut indices, mut lamps, mut absent) = (Vec::new(), Vec::new(), Vec::new());
     match &target {
         Some(target) => {
@@ -72,9 +75,11 @@ pub(super) fn characterise(bench: &Bench<'_>, index: usize, spectrogram: &Spectr
             absent.extend(["f1′", "F"].map(|symbol| Absent { symbol, why: why.clone() }));
         }
     }
-    indices.push(subject.linearity(target.as_ref())?);
+    let spectrum = target.as_ref().map_or_else(|| seen_by(channel), |target| Ok(target.calibration.clone()))?;
+    let (of_readout, without) = readout::characterise(bench, full, index, &spectrum)?;
+    indices.extend(of_readout.into_iter().map(|one| Index { limits: subject.limits(one.symbol), ..one }));
+    absent.extend(without);
     indices.push(subject.mean_wavelength(target.as_ref()).map_err(told)?);
-    absent.push(Absent { symbol: "f11", why: "the sensor has no readout with ranges".to_owned() });
     Ok(ChannelSheet {
         name: channel.name.clone(),
         reads: channel.reads.clone(),
@@ -99,17 +104,21 @@ struct Subject<'a> {
 impl Subject<'_> {
     /// Limits of classes, which are those of illuminance meters.
     fn limits(&self, symbol: &str) -> Option<&'static Limits> {
-        if self.channel.reads == Measurand::Illuminance { limits(symbol) } else { None }
+        if is_illuminance(self.channel) { limits(symbol) } else { None }
     }
 
     /// How much an index changes when the curve moves by its stated standard uncertainty: one cause at all wavelengths.
     fn stated(&self, index: impl Fn(&Factor) -> Result<f64, MismatchError>) -> Result<f64, MismatchError> {
-        let Some(ResponsivityUncertainty::Curve(u)) = &self.channel.responsivity_uncertainty else {
+        let own = index(&self.channel.responsivity)?;
+        let mut u: f64 = 0.0;
+        for stated in &self.channel.responsivity_uncertainty {
             // The same share at every wavelength is a scale, and scales cancel.
-            return Ok(0.0);
-        };
-        let moved = Factor::Sum(vec![self.channel.responsivity.clone(), u.clone()]);
-        Ok((index(&moved)? - index(&self.channel.responsivity)?).abs())
+            if let ResponsivityUncertainty::Curve(curve) = stated {
+                let moved = Factor::Sum(vec![self.channel.responsivity.clone(), curve.clone()]);
+                u = u.hypot(index(&moved)? - own);
+            }
+        }
+        Ok(u)
     }
 
     fn mismatch(&self, target: &Target) -> Result<Index, MismatchError> {
@@ -174,30 +183,6 @@ impl Subject<'_> {
             lamps.push(Lamp { name: name.to_owned(), computed: Figure::exact(computed, computed), measured });
         }
         Ok(lamps)
-    }
-
-    fn linearity(&self, target: Option<&Target>) -> Result<Index, SheetError> {
-        let spectrum = target.map_or_else(|| seen_by(self.channel), |target| Ok(target.calibration.clone()))?;
-        let read = self.bench.attenuated(self.index, &spectrum, &STRENGTHS)?;
-        let reference = &read[4];
-        let relative = |f: &Figure| if f.value > 0.0 { f.standard_uncertainty / f.value } else { f64::INFINITY };
-        let (mut value, mut u): (f64, f64) = (0.0, 0.0);
-        for (figure, strength) in read.iter().zip(STRENGTHS) {
-            let at = |x: f64| if x == 1.0 { reference.value } else { figure.value };
-            let found = linearity::deviation(&at, strength, 1.0).unwrap_or(f64::INFINITY).abs();
-            value = value.max(found);
-            u = u.max(relative(figure).hypot(relative(reference)));
-        }
-        Ok(Index {
-            symbol: "f3",
-            name: "linearity",
-            unit: "%",
-            computed: Figure::exact(0.0, 1.0).scaled(PERCENT),
-            measured: Figure { value, standard_uncertainty: u }.scaled(PERCENT),
-            limits: self.limits("f3"),
-            stated_u: 0.0,
-            conditions: "without a readout; a lamp over seven decades of strength".to_owned(),
-        })
     }
 
     fn mean_wavelength(&self, target: Option<&Target>) -> Result<Index, MismatchError> {

@@ -13,6 +13,7 @@
 
 use crate::observer::{AlphaOpic, Efficiency};
 use crate::quantity::Measurand;
+use crate::sensor::Channel;
 use crate::spectrum::photometry::{WavelengthsIn, photons_per_joule};
 use crate::spectrum::{Density, Factor, Outside, Table, library};
 
@@ -34,9 +35,20 @@ pub struct Target {
 }
 
 impl Target {
-    /// The target of a measurand; `None` where its name does not say.
+    /// The target of a channel: that of its measurand, or else the ideal weighting that its file gives; `None` without either.
     #[must_use]
-    pub fn of(reads: &Measurand) -> Option<Self> {
+    pub fn of(channel: &Channel) -> Option<Self> {
+        Self::of_measurand(&channel.reads).or_else(|| {
+            let curve = channel.ideal.as_ref()?.curve.clone();
+            let (from, to) = curve.support().hull()?;
+            let range_nm = (from.clamp(200.0, 2500.0), to.clamp(200.0, 2500.0));
+            let a = Self::adjusted_with_a("the ideal weighting of the sensor file", curve, range_nm);
+            if a.calibration.integral(&[&a.curve]) > 0.0 && range_nm.0 < range_nm.1 { Some(a) } else { None }
+        })
+    }
+
+    /// The target of a measurand; `None` where its name does not say.
+    fn of_measurand(reads: &Measurand) -> Option<Self> {
         match reads {
             Measurand::Illuminance | Measurand::Luminance | Measurand::LuminousFlux => {
                 Some(Self { photopic: true, ..Self::adjusted_with_a("V(λ)", library::v_lambda(), (360.0, 830.0)) })
@@ -47,6 +59,12 @@ impl Target {
     }
 
     fn named(name: &str) -> Option<Self> {
+        // Heads put their adjective before the quantity.
+        let heads = ["spherical ", "hemispherical ", "cylindrical ", "semicylindrical "];
+        let name = heads.iter().find_map(|head| name.strip_prefix(head)).unwrap_or(name);
+        if name == "illuminance" {
+            return Self::of_measurand(&Measurand::Illuminance);
+        }
         if let Some(alpha) = name.strip_suffix(" equivalent daylight (D65) illuminance") {
             let alpha = AlphaOpic::ALL.into_iter().find(|one| one.name() == alpha)?;
             return Some(Self {
@@ -101,15 +119,16 @@ mod tests {
     #[test]
     fn measurands_lead_to_their_targets() {
         let weighted = |name: &str| Measurand::Weighted { name: name.to_owned(), symbol: String::new(), unit: String::new() };
-        assert!(Target::of(&Measurand::Illuminance).unwrap().photopic);
+        assert!(Target::of_measurand(&Measurand::Illuminance).unwrap().photopic);
         for alpha in AlphaOpic::ALL {
-            let found = Target::of(&weighted(&format!("{} equivalent daylight (D65) illuminance", alpha.name()))).unwrap();
+            let found = Target::of_measurand(&weighted(&format!("{} equivalent daylight (D65) illuminance", alpha.name()))).unwrap();
             assert_eq!((found.curve, found.calibration_name), (alpha.curve(), "D65"));
         }
-        let sun = Target::of(&weighted("erythemal irradiance")).unwrap();
+        assert!(Target::of_measurand(&weighted("semicylindrical illuminance")).unwrap().photopic);
+        let sun = Target::of_measurand(&weighted("erythemal irradiance")).unwrap();
         assert!((sun.curve.at(328.0) / 10f64.powf(-2.82) - 1.0).abs() < 1e-12 && sun.curve.at(298.0) == 1.0);
-        assert!(Target::of(&weighted("photosynthetic photon flux density")).is_some());
-        assert_eq!(Target::of(&Measurand::Irradiance), None);
-        assert_eq!(Target::of(&weighted("something else")), None);
+        assert!(Target::of_measurand(&weighted("photosynthetic photon flux density")).is_some());
+        assert_eq!(Target::of_measurand(&Measurand::Irradiance), None);
+        assert_eq!(Target::of_measurand(&weighted("something else")), None);
     }
 }

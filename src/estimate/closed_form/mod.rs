@@ -16,6 +16,7 @@
 //! * Forms with a textbook cancellation are replaced by equivalent forms without it. Where a sum of edge terms would cancel, the
 //!   same integral is taken in azimuthal strips whose contributions are all positive (`fan.rs`).
 
+pub mod across_axis;
 pub mod aperture;
 pub mod cone;
 pub mod directional;
@@ -23,6 +24,7 @@ pub mod disc;
 pub mod exchange;
 mod fan;
 mod frame;
+pub mod head;
 pub mod point;
 pub mod polygon;
 pub mod polygon_in_cone;

@@ -12,7 +12,7 @@ use crate::geometry::rays::{LANES, NONE, Rays, Vectors};
 use crate::math::DVec3;
 use crate::math::frame::world_from_local;
 use crate::math::random::{Stream, four_in_lanes};
-use crate::math::sample::sample_cosine_cone;
+use crate::math::sample::sample_cosine_hemisphere;
 
 /// What a run of paths adds up.
 #[derive(Clone, Debug)]
@@ -61,8 +61,7 @@ pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>,
 
         let mut local = Vectors::ZERO;
         for lane in 0..LANES {
-            let sine = if block.vertex[lane] == 0 { receiver.sine_limit } else { 1.0 };
-            local.set(lane, sample_cosine_cone([u[0][lane], u[1][lane]], sine));
+            local.set(lane, sample_cosine_hemisphere([u[0][lane], u[1][lane]]));
         }
         for lane in 0..LANES {
             let direction = world_from_local(block.normal.get(lane), local.get(lane));
@@ -74,8 +73,9 @@ pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>,
             }
             if block.vertex[lane] == 0 {
                 block.point.set(lane, receiver.point([u[2][lane], u[3][lane]]));
-                let sine = receiver.sine_limit;
-                block.weight[lane] = receiver.response(rays.direction.get(lane)) * PI * sine * sine;
+                let (direction, weight) = receiver.direction([u[0][lane], u[1][lane]]);
+                rays.direction.set(lane, direction);
+                block.weight[lane] = weight;
                 block.alive[lane] = block.weight[lane] > 0.0;
             } else if block.vertex[lane] > ROULETTE_AFTER {
                 let p = block.survival[lane];

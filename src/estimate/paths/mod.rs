@@ -7,6 +7,7 @@
 //! | factor | density | what is left |
 //! |---|---|---|
 //! | R cosθ at the sensor | cosθ/(π sin²α) within the acceptance | W = R π sin²α |
+//! | w at a head that sees all round | 1/4π | W = 4π w |
 //! | (ρ/π) cosθ at a surface | cosθ/π | ρ |
 //! | (ρ/π) at the end of a path | a connection to a light | ρ/π times its irradiance |
 //! | survival | p, after the third reflection | 1/p |

@@ -25,8 +25,8 @@ pub enum Formula {
 #[must_use]
 pub fn formula(scene: &Scene, sensor: &Sensor, source: &Source) -> Formula {
     let symmetric = match &sensor.acceptance {
-        Acceptance::Cosine | Acceptance::Cone { .. } => true,
         Acceptance::Directional(table) => table.rotationally_symmetric().is_some(),
+        _ => true,
     };
     let from_point = match &source.emitter {
         Emitter::Environment | Emitter::Directional { .. } => return Formula::Exact,
@@ -39,7 +39,7 @@ pub fn formula(scene: &Scene, sensor: &Sensor, source: &Source) -> Formula {
             });
             match (&sensor.acceptance, known && symmetric) {
                 (_, false) => Formula::Unknown,
-                (Acceptance::Directional(_), true) => Formula::Summed,
+                (Acceptance::Directional(_) | Acceptance::Cylindrical | Acceptance::Semicylindrical, true) => Formula::Summed,
                 (_, true) => Formula::Exact,
             }
         }

@@ -21,9 +21,11 @@ fn apply(scene: &Scene, plan: &mut Plan) {
         .map(|instrument| {
             let limit = instrument.sensor.acceptance.limit_rad();
             let reach = instrument.sensor.aperture.radius_m();
+            let horizon = instrument.sensor.acceptance.has_horizon();
             instrument.poses.iter().all(|pose| {
                 reflecting.iter().all(|e| {
-                    e.shape.extent_along(pose.at, pose.normal).1 <= 0.0 || sight::smallest_angle_of_shape_rad(pose, reach, &e.shape) > limit
+                    (horizon && e.shape.extent_along(pose.at, pose.normal).1 <= 0.0)
+                        || sight::smallest_angle_of_shape_rad(pose, reach, &e.shape) > limit
                 })
             })
         })

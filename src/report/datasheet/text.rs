@@ -17,6 +17,7 @@ pub fn to_text(sheet: &DataSheet) -> String {
     let receptor = match sheet.receptor {
         Receptor::Planar => "planar receptor".to_owned(),
         Receptor::Cone { half_angle_rad } => format!("cone of half-angle {}°", trimmed(half_angle_rad.to_degrees())),
+        Receptor::Head(head) => format!("{} head", head.name()),
     };
     let mut lines = vec![
         sheet.title.clone(),

@@ -4,11 +4,14 @@
 //! s(λ) / max s                 r(θ, φ) = R(θ, φ) cos θ / R(0)                 d(θ, φ) = R(θ, φ) / R(0) − 1
 //! ```
 //!
+//! Of a head that sees all round, its weight w(θ, φ) relative to the largest, over θ to 180° on either side, stands for R cos θ.
+//!
 //! R is relative to that along the normal, or to the largest where the sensor accepts nothing along its normal. A response that depends
 //! on the azimuth is drawn in four planes through the normal; at the left of the normal, φ is larger by 180°.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use crate::math::DVec3;
 use crate::sensor::{Acceptance, Sensor};
 use crate::spectrum::{Factor, library};
 
@@ -41,8 +44,18 @@ impl Cut {
         let phi = if theta_rad < 0.0 { self.phi_rad + PI } else { self.phi_rad };
         let theta = theta_rad.abs();
         // At 90° the cosine of the nearest number to π/2 is not zero.
-        let cos = if theta >= FRAC_PI_2 { 0.0 } else { theta.cos() };
+        let cos = if theta == FRAC_PI_2 || (theta > FRAC_PI_2 && !self.sees_all_round()) { 0.0 } else { theta.cos() };
         self.acceptance.at(cos, theta.sin(), phi) / self.unit
+    }
+
+    /// Response to a parallel beam, R cos θ or w, relative to one.
+    pub(super) fn to_beam(&self, theta_rad: f64) -> f64 {
+        if self.sees_all_round() { self.relative(theta_rad) } else { self.relative(theta_rad) * theta_rad.cos().max(0.0) }
+    }
+
+    /// Whether there is no horizon.
+    pub(super) fn sees_all_round(&self) -> bool {
+        !self.acceptance.has_horizon()
     }
 
     /// Angles at which the response is drawn, rad: every half degree and both sides of the limit of acceptance.
@@ -102,22 +115,22 @@ pub fn responsivity(sensors: &[Sensor]) -> Result<Chart, PlotError> {
 /// Response over the angle of incidence with the cosine behind. Errors if there is no sensor.
 pub fn directional(sensors: &[Sensor]) -> Result<Chart, PlotError> {
     let cuts = cuts(sensors)?;
+    let reach_deg = reach_deg(&cuts);
     let degrees = |from: f64, to: f64| Axis {
         ticks: (-6..=6)
-            .map(|i| 15.0 * f64::from(i))
-            .filter(|d| d % 30.0 == 0.0)
+            .map(|i| f64::from(i) * reach_deg / 3.0)
+            .filter(|d| d.abs() <= reach_deg)
             .map(|d| (d, format!("{d:.0}").replace('-', "−")))
             .collect(),
         ..Axis::linear("Angle of incidence θ", "°", from, to)
     };
-    let largest =
-        cuts.iter().flat_map(|cut| cut.angles_rad(-90.0, 90.0).into_iter().map(|t| cut.relative(t) * t.cos())).fold(1.0, f64::max);
+    let largest = cuts.iter().flat_map(|cut| cut.angles_rad(-reach_deg, reach_deg).into_iter().map(|t| cut.to_beam(t))).fold(1.0, f64::max);
     let y = Axis::linear("Relative response R(θ) cos θ", "1 along the normal", 0.0, 1.05 * largest);
-    let mut chart = Chart::new("Directional response", &subtitle(sensors, "to a parallel beam"), degrees(-90.0, 90.0), y);
+    let mut chart = Chart::new("Directional response", &subtitle(sensors, "to a parallel beam"), degrees(-reach_deg, reach_deg), y);
     let cosine = every(-90.0, 90.0, STEP_DEG).into_iter().map(|d| [d, d.to_radians().cos().max(0.0)]).collect();
     chart.curves.push(Curve::new("cos θ", cosine, Ink::Muted).behind());
     for (index, cut) in cuts.iter().enumerate() {
-        let points = cut.angles_rad(-90.0, 90.0).into_iter().map(|t| [t.to_degrees(), cut.relative(t) * t.cos().max(0.0)]);
+        let points = cut.angles_rad(-reach_deg, reach_deg).into_iter().map(|t| [t.to_degrees(), cut.to_beam(t)]);
         chart.curves.push(styled(&cut.label, points.collect(), index));
     }
     Ok(chart)
@@ -126,6 +139,10 @@ pub fn directional(sensors: &[Sensor]) -> Result<Chart, PlotError> {
 /// Deviation from the cosine, percent, over the angle of incidence to 85°. Errors if there is no sensor.
 pub fn deviation(sensors: &[Sensor]) -> Result<Chart, PlotError> {
     let cuts = cuts(sensors)?;
+    if let Some(head) = sensors.iter().find_map(|sensor| sensor.acceptance.head()) {
+        let what = format!("a {} receptor is not meant to follow the cosine; its directional and polar views show its weight", head.name());
+        return Err(PlotError::Request { what });
+    }
     let symmetric = sensors.iter().all(|sensor| is_symmetric(&sensor.acceptance));
     let from = if symmetric { 0.0 } else { -DEVIATION_TO_DEG };
     let curves: Vec<Curve> = cuts
@@ -161,7 +178,12 @@ pub(super) fn cuts(sensors: &[Sensor]) -> Result<Vec<Cut>, PlotError> {
             (Some(plane), _) => format!("{}, {plane}", sensor.title),
             (None, _) => sensor.title.clone(),
         };
-        let unit = if along_normal > 0.0 { along_normal } else { largest };
+        let unit = match sensor.acceptance.head() {
+            // Along the normal, but for a cylinder, whose side it is.
+            Some(head) => head.weight(DVec3::Z).max(head.weight(DVec3::X)),
+            None if along_normal > 0.0 => along_normal,
+            None => largest,
+        };
         Cut { label, acceptance: sensor.acceptance.clone(), phi_rad: phi_deg.unwrap_or(0.0).to_radians(), unit }
     };
     Ok(sensors
@@ -173,8 +195,16 @@ pub(super) fn cuts(sensors: &[Sensor]) -> Result<Vec<Cut>, PlotError> {
         .collect())
 }
 
+/// How far from the normal a chart goes, degrees.
+pub(super) fn reach_deg(cuts: &[Cut]) -> f64 {
+    if cuts.iter().any(Cut::sees_all_round) { 180.0 } else { 90.0 }
+}
+
 fn is_symmetric(acceptance: &Acceptance) -> bool {
-    !matches!(acceptance, Acceptance::Directional(table) if table.rotationally_symmetric().is_none())
+    match acceptance {
+        Acceptance::Directional(table) => table.rotationally_symmetric().is_some(),
+        other => *other != Acceptance::Semicylindrical,
+    }
 }
 
 /// A curve of the palette; the second round of it is dashed.

@@ -77,6 +77,11 @@ impl System {
         self.sensor("Point", &format!("Cone(half_angle_deg: {half_angle_deg:e})"), ["Irradiance", "Illuminance"])
     }
 
+    /// A small head that sees all round: `Spherical`, `Cylindrical`.
+    pub fn head_meter(self, head: &str) -> String {
+        self.sensor("Point", head, ["Irradiance", "Illuminance"])
+    }
+
     /// A meter of radiance or luminance at a point.
     pub fn radiance_meter(self, half_angle_deg: f64) -> String {
         self.sensor("Point", &format!("Cone(half_angle_deg: {half_angle_deg:e})"), ["Radiance", "Luminance"])

@@ -56,12 +56,6 @@ pub const FILES: [(&str, &str); 4] = [
 
 /// Families and single cases that cannot be computed yet, each with the reason.
 pub const WAITING: &[(&str, &str)] = &[
-    ("g1h.point-cyl", "cylindrical illuminance needs an instrument of its own"),
-    ("g1h.cap-cyl", "cylindrical illuminance needs an instrument of its own"),
-    ("g1h.rect-cyl", "cylindrical illuminance needs an instrument of its own"),
-    ("g1h.point-sph", "spherical illuminance needs an instrument of its own"),
-    ("g1h.cap-sph", "spherical illuminance needs an instrument of its own"),
-    ("g1h.rect-sph", "spherical illuminance needs an instrument of its own"),
     ("g3a.sphere-spot", "a beam of limited width is no source of a scene yet"),
     ("g3a.cavity", "surfaces that emit by their temperature and emissivity are not in scenes yet"),
     ("g3b.plates-E1", "plates without end are no shape of a scene"),

@@ -38,6 +38,12 @@ pub(super) const FAMILIES: Families = &[
     ("g1g.edge-target", edge_target),
     ("g1g.disc-target", disc_target),
     ("g1g.offset-disc", offset_disc),
+    ("g1h.point-cyl", |c| point_at_head(c, "Cylindrical")),
+    ("g1h.point-sph", |c| point_at_head(c, "Spherical")),
+    ("g1h.cap-cyl", |c| cap_over_head(c, "Cylindrical")),
+    ("g1h.cap-sph", |c| cap_over_head(c, "Spherical")),
+    ("g1h.rect-cyl", |c| rectangle_over_head(c, "Cylindrical")),
+    ("g1h.rect-sph", |c| rectangle_over_head(c, "Spherical")),
     ("g1i.polygon", polygon),
     ("g1i.closed-octahedron", octahedron),
 ];
@@ -183,6 +189,30 @@ fn disc_target(c: &Case) -> Outcome {
 fn offset_disc(c: &Case) -> Outcome {
     let place = disc([c.number("shift_m")?, 0.0, c.number("distance_m")?], [0.0, 0.0, -1.0], c.number("R_m")?);
     read_up(&[format!("{place}, {}", System::Luminous.radiance(1.0))], &System::Luminous.radiance_meter(c.number("b_deg")?))
+}
+
+/// The axis of a cylinder is vertical.
+fn point_at_head(c: &Case, head: &str) -> Outcome {
+    let source = format!("shape: Point, at: {}, {}", at(c.vector("source")?), c.system().intensity(c.number("I")?));
+    found(&scene(&[source], &c.system().head_meter(head), c.vector("sensor")?, [0.0, 0.0, 1.0])?)
+}
+
+/// A cap about the zenith: a sphere that fills it, a plane without end for the half space, everything for the whole sphere.
+fn cap_over_head(c: &Case, head: &str) -> Outcome {
+    let half_deg = c.number("a_deg")?;
+    let place = match half_deg {
+        _ if half_deg < 90.0 => format!("shape: Sphere({:e}), at: (0, 0, 1)", half_deg.to_radians().sin()),
+        90.0 => disc([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], EVERYTHING_M),
+        180.0 => "shape: Environment".to_owned(),
+        _ => return Err(Fault::wrong(format!("no source fills a cap of {half_deg}°"))),
+    };
+    read_up(&[format!("{place}, {}", c.system().radiance(c.number("L")?))], &c.system().head_meter(head))
+}
+
+fn rectangle_over_head(c: &Case, head: &str) -> Outcome {
+    let centre = at([c.number("x_m")?, c.number("y_m")?, c.number("z_m")?]);
+    let place = format!("shape: Rectangle({:e}, {:e}), at: {centre}, facing: (0, 0, -1)", c.number("a_m")?, c.number("b_m")?);
+    read_up(&[format!("{place}, {}", c.system().radiance(c.number("L")?))], &c.system().head_meter(head))
 }
 
 /// A polygon that emits to both sides.
