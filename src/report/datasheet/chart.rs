@@ -58,12 +58,16 @@ fn responsivity(sheet: &DataSheet, channel: &ChannelSheet) -> Option<Chart> {
     let mut curves = Vec::new();
     let mut low = 0.0;
     if let Some(target) = target {
-        let difference = points(&|i, nm| 10.0 * (scale * found.readings[i].value - unit * target.curve.at(nm)));
+        let apart = points(&|i, nm| scale * found.readings[i].value - unit * target.curve.at(nm));
+        let largest = apart.iter().map(|p| p[1].abs()).fold(0.0, f64::max);
+        // As large as fits under the peak.
+        let times = [100.0, 50.0, 20.0, 10.0, 5.0, 2.0].into_iter().find(|k| k * largest <= top).unwrap_or(1.0);
+        let difference: Vec<[f64; 2]> = apart.iter().map(|p| [p[0], times * p[1]]).collect();
         let zero = vec![[from, 0.0], [to, 0.0]];
         low = difference.iter().map(|p| p[1]).fold(0.0, f64::min).max(-top);
         curves.push(Curve::new(&target.name, points(&|_, nm| unit * target.curve.at(nm)), Ink::Muted).behind());
         curves.push(Curve::new("zero", zero, Ink::Grid).unwritten());
-        curves.push(Curve::new("10 × difference", difference, Ink::Palette(1)));
+        curves.push(Curve::new(&format!("{times} × difference"), difference, Ink::Palette(1)));
     }
     curves.push(Curve::new(&format!("{}, measured", channel.name), measured, Ink::Palette(0)));
     let adjusted = target.map_or("relative to the peak", |_| "as adjusted");
@@ -106,7 +110,7 @@ fn lamps(sheet: &DataSheet, channel: &ChannelSheet) -> Option<Chart> {
     let (low, high) = off.iter().fold((-0.5_f64, 0.5_f64), |(low, high), y| (low.min(*y), high.max(*y)));
     let margin = 0.12 * (high - low);
     let count = off.len() as f64;
-    let x = Axis { visible: false, ..Axis::linear("Lamp", "1", 0.0, count) };
+    let x = Axis { visible: false, ..Axis::linear("Lamp", "1", -0.4, count + 0.4) };
     let y = Axis::linear("Reading over truth − 1", "%", low - 2.5 * margin, high + margin);
     let adjusted = channel.target.as_ref().map_or("", |target| target.calibration_name);
     let subtitle = format!("{}, {}; adjusted with {adjusted}", sheet.title, channel.name);
@@ -123,6 +127,6 @@ fn lamps(sheet: &DataSheet, channel: &ChannelSheet) -> Option<Chart> {
         let text = lamp.name.clone();
         chart.notes.push(Note { text, at: [i as f64 + 0.5, row], shift_em: [0.0, 0.0], anchor: Anchor::Middle, ink: Ink::Text });
     }
-    chart.curves.push(Curve::new("truth", vec![[0.0, 0.0], [count, 0.0]], Ink::Muted).behind().unwritten());
+    chart.curves.push(Curve::new("truth", vec![[-0.4, 0.0], [count + 0.4, 0.0]], Ink::Muted).behind().unwritten());
     Some(chart)
 }
