@@ -1,12 +1,17 @@
 #!/usr/bin/env python3
 """Writes the synthetic curves of the meters in this folder. Formulas only, no measured data.
 
-    python3 sensors/make_curves.py            # writes class-b/*.csv and directional-phi/response.csv
+    python3 sensors/make_curves.py            # writes the folders class-l, class-a, class-b, class-c, silicon, par, uv, directional-phi
     python3 sensors/make_curves.py --check    # fails if a file is not what this script writes
 
 class-b/responsivity.csv     s(λ) = V(600 + (λ − 600 + 1)/1.03) + 0.01 exp(−½((λ − 447)/19)²) + 0.005 exp(−½((λ − 700)/18)²)
                              a V(λ) stretched by 3 % about 600 nm and shifted by 1 nm, with leaks in the blue and in the red
 class-b/directional.csv      R(θ) = 1 + 0.025 sin²(2θ) − 0.16 (θ/90°)⁶
+class-l, class-a, class-c    silicon behind layers of absorbing glass (`GLASS`), and R(θ) = 1 + a sin²(2θ) − b (θ/90°)⁶ (`DIFFUSER`)
+silicon/responsivity.csv     s(λ) = λ/(hc/e) (1 − 0.3) exp(−α d) (1 − exp(−α w)), d = 10 nm dead layer, w = 200 µm; α(λ) of silicon at 300 K by
+                             K. Rajkanan, R. Singh, J. Shewchun, Solid-State Electronics 22 (1979) 793
+par/responsivity.csv         the same silicon behind a glass that makes it count photons, with edges at 402 nm and 698 nm
+uv/erythema.csv              ISO/CIE 17166: 1 to 298 nm, 10^(0.094 (298 − λ)) to 328 nm, 10^(0.015 (140 − λ)) to 400 nm
 directional-phi/response.csv R(θ, φ) = (1 + 0.05 (θ/90°) cos φ − 0.02 (θ/90°)² cos 2φ) (1 − 0.1 (θ/90°)⁴)
 
 The quality indices that go into the headers are those of ISO/CIE 19476:2014:
@@ -22,6 +27,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 LICENCE = "MIT OR Apache-2.0"
 STEP_DEG = 2.5
+HC_EV_NM = 1239.841984
 
 
 def v_lambda():
@@ -51,6 +57,53 @@ def bell(nm, centre, sigma):
 def responsivity(nm):
     ends = min(1.0, (nm - 380) / 5, (780 - nm) / 5)
     return ends * (v_at(600 + (nm - 600 + 1) / 1.03) + 0.01 * bell(nm, 447, 19) + 0.005 * bell(nm, 700, 18))
+
+
+def absorption_per_cm(nm, kelvin=300.0):
+    """Silicon; Rajkanan, Singh and Shewchun 1979: two indirect gaps with two phonons each, one direct gap."""
+    k_ev, ev = 8.617333262e-5, HC_EV_NM / nm
+    shift = 7.021e-4 * kelvin**2 / (kelvin + 1108)
+    total = 0.0
+    for gap, a in ((1.1557, 3.231e2), (2.5, 7.237e3)):
+        for phonon, c in ((1.827e-2, 5.5), (5.773e-2, 4.0)):
+            absorbed, emitted = ev - gap + shift + phonon, ev - gap + shift - phonon
+            x = phonon / k_ev / kelvin
+            total += c * a * max(absorbed, 0.0) ** 2 / math.expm1(x) - c * a * max(emitted, 0.0) ** 2 / math.expm1(-x)
+    return total + 1.052e6 * math.sqrt(max(ev - 3.2 + shift, 0.0))
+
+
+def silicon_a_w(nm):
+    """Photodiode of silicon: 30 % reflected, 10 nm dead, 200 µm deep."""
+    alpha = absorption_per_cm(nm)
+    return nm / HC_EV_NM * 0.7 * math.exp(-alpha * 1e-6) * -math.expm1(-alpha * 0.02)
+
+
+def glass(nm, long_pass, short_pass, bands=(), leak=0.0):
+    """Edges exp(−exp(∓(λ − edge)/width)), absorption bands exp(−depth · bell), and what the short-pass lets through beyond 850 nm."""
+    through = math.exp(-math.exp(-(nm - long_pass[0]) / long_pass[1]))
+    through *= math.exp(-math.exp(min((nm - short_pass[0]) / short_pass[1], 50)))
+    for depth, centre, sigma in bands:
+        through *= math.exp(-depth * bell(nm, centre, sigma))
+    return through + leak * math.exp(-math.exp(-(nm - 850) / 20))
+
+
+# Layers of the lux meters, nm: edges chosen for the least f1' with 4 layers (L), too thin bands (A), edges 8 nm and 3 nm off and a leak (C).
+GLASS = {
+    "l": {"long_pass": (528.3, 55.9), "short_pass": (580.1, 60.3), "bands": ((0.67, 482.4, 19.4), (0.52, 686.8, 72.6))},
+    "a": {"long_pass": (528.3, 55.9), "short_pass": (580.1, 60.3), "bands": ((0.536, 482.4, 19.4), (0.416, 686.8, 72.6))},
+    "c": {"long_pass": (516.4, 39.8), "short_pass": (563.6, 68.3), "leak": 8e-4},
+}
+# a and b of R(θ).
+DIFFUSER = {"l": (0.008, 0.06), "a": (0.015, 0.10), "c": (0.05, 0.40)}
+
+
+def par_responsivity(nm):
+    """Photons, per W: λ, between soft edges; the glass takes the silicon out."""
+    return nm / 700 / (1 + math.exp(-(nm - 402) / 3)) / (1 + math.exp((nm - 698) / 3))
+
+
+def erythema(nm):
+    return 1.0 if nm <= 298 else 10 ** (0.094 * (298 - nm)) if nm <= 328 else 10 ** (0.015 * (140 - nm))
 
 
 def f1_prime(curve):
@@ -142,6 +195,64 @@ def files():
             "source": "SYNTHETIC, no measured device: R = (1 + 0.05 x cos φ − 0.02 x² cos 2φ)(1 − 0.1 x⁴) with x = θ/90°",
         },
         ["theta_deg," + ",".join(map(str, phis))] + [f"{t:g}," + ",".join(f"{directional_phi(t, p):.6g}" for p in phis) for t in thetas],
+    )
+
+
+    factor = {"kind": "factor", "unit": "1", "wavelength_unit": "nm (in air)", "interpolation": "linear", "outside": "zero"}
+    relative = {"quantity": "relative spectral responsivity", **factor}
+
+    def spectral(name, source, step, rows, more=None):
+        head = {"name": name, **relative, "range": f"{min(rows):g}-{max(rows):g}", "step": f"{step:g}", "source": source, **(more or {})}
+        return text(head, ["wavelength_nm,s"] + [f"{nm:g},{s:g}" for nm, s in rows.items()])
+
+    nms = [float(nm) for nm in range(300, 1151, 5)]
+    detector = "SYNTHETIC, no measured device: silicon by the absorption of Rajkanan, Singh and Shewchun 1979, 30 % reflected, 10 nm dead, 200 µm"
+    bare = {nm: float(f"{silicon_a_w(nm):.6g}") for nm in nms}
+    a_w = {"quantity": "spectral responsivity", **factor, "unit": "A/W"}
+    yield "silicon/responsivity.csv", text(
+        {"name": "Synthetic silicon photodiode", **a_w, "range": "300-1150", "step": "5", "source": detector, "f1_prime": f"{100 * f1_prime(bare):.2f} %"},
+        ["wavelength_nm,s"] + [f"{nm:g},{s:g}" for nm, s in bare.items()],
+    )
+    for letter, layers in GLASS.items():
+        raw = {nm: silicon_a_w(nm) * glass(nm, **layers) for nm in nms}
+        peak = max(raw.values())
+        curve = {nm: float(f"{s / peak:.6f}") for nm, s in raw.items()}
+        words = "; ".join(f"{key} {value}" for key, value in layers.items())
+        yield f"class-{letter}/responsivity.csv", spectral(
+            f"Synthetic class {letter.upper()} luminous responsivity",
+            f"{detector}; behind layers of glass as make_curves.py has them: {words}",
+            5,
+            curve,
+            {"f1_prime": f"{100 * f1_prime(curve):.2f} %"},
+        )
+        a, b = DIFFUSER[letter]
+
+        def diffuser(theta_deg, a=a, b=b):
+            return 1 + a * math.sin(math.radians(2 * theta_deg)) ** 2 - b * (theta_deg / 90) ** 6
+
+        yield f"class-{letter}/directional.csv", text(
+            {
+                "name": f"Synthetic class {letter.upper()} directional response",
+                "quantity": "directional response relative to the cosine, R(θ)",
+                **angles,
+                "range": "0-90",
+                "step": f"{STEP_DEG}",
+                "source": f"SYNTHETIC, no measured device: R(θ) = 1 + {a} sin²(2θ) − {b} (θ/90°)⁶",
+                "f2": f"{100 * f2(diffuser):.2f} %",
+            },
+            ["theta_deg,R"] + [f"{t:g},{diffuser(t):.6g}" for t in thetas],
+        )
+    yield "par/responsivity.csv", spectral(
+        "Synthetic PAR quantum responsivity",
+        "SYNTHETIC, no measured device: λ/700 nm between edges at 402 nm and 698 nm that are 3 nm wide",
+        2,
+        {float(nm): float(f"{par_responsivity(nm):.6f}") for nm in range(370, 751, 2)},
+    )
+    yield "uv/erythema.csv", spectral(
+        "Erythema action spectrum",
+        "formula of ISO/CIE 17166, 10^(0.015 (140 − λ)) above 328 nm; not checked against the text",
+        1,
+        {float(nm): float(f"{erythema(nm):.6g}") for nm in range(250, 401)},
     )
 
 

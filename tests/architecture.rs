@@ -47,6 +47,7 @@ const DOORS: [(&str, &[&str]); 18] = [
             "src/report/stability/json.rs",
             "src/report/coverage/json.rs",
             "src/report/savings/json.rs",
+            "src/report/datasheet/json.rs",
         ],
     ),
     (
@@ -61,6 +62,7 @@ const DOORS: [(&str, &[&str]); 18] = [
             "src/report/stability/json.rs",
             "src/report/coverage/json.rs",
             "src/report/savings/json.rs",
+            "src/report/datasheet/json.rs",
             "src/study/verify/",
         ],
     ),

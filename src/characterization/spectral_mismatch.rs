@@ -84,7 +84,7 @@ impl Wavelengths {
     }
 
     /// One per nm.
-    fn uniform(self) -> Result<Density, SpectrumError> {
+    pub(super) fn uniform(self) -> Result<Density, SpectrumError> {
         let (from_nm, to_nm) = self.range_nm();
         let flat = Density::flat(from_nm, to_nm, 1.0)?;
         if let Self::Sum { step_nm, .. } = self { flat.summed(from_nm, to_nm, step_nm) } else { Ok(flat) }
@@ -169,6 +169,18 @@ pub fn mismatch_index(responsivity: &Factor, target: &Factor, calibration: &Dens
 /// ```
 pub fn correction_factor(responsivity: &Factor, target: &Factor, test: &Density, calibration: &Density) -> Result<f64, MismatchError> {
     in_range(adjustment(responsivity, target, test, "test")? / adjustment(responsivity, target, calibration, "calibration")?)
+}
+
+/// Mean wavelength of a spectrum as a responsivity sees it, `∫ S s λ dλ / ∫ S s dλ`, nm; also called effective wavelength.
+///
+/// # Errors
+/// [`MismatchError`].
+pub fn mean_wavelength_nm(responsivity: &Factor, spectrum: &Density) -> Result<f64, MismatchError> {
+    let seen = spectrum.integral(&[responsivity]);
+    if !(seen > 0.0 && seen.is_finite()) {
+        return Err(MismatchError::NothingSeen { by: "responsivity", of: "test" });
+    }
+    in_range(spectrum.integral(&[responsivity, &Factor::Proportional(1.0)]) / seen)
 }
 
 /// `∫ S V dλ / ∫ S s dλ`: what the responsivity is multiplied with to read the target for this spectrum. The scale of the spectrum cancels.

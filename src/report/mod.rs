@@ -8,6 +8,7 @@
 //! | `csv.rs` | a row a reading, for spreadsheets |
 //! | `convergence/` | error against run time, in the same three forms; reads references |
 //! | `coverage/` | how often intervals cover the truth, in the same three forms and Markdown |
+//! | `datasheet/` | data sheets of sensors, as text, JSON and charts |
 //! | `lecture/` | equations of the lecture and the table of quantities, as text and JSON |
 //! | `spectrum/` | the quantities of one spectrum, in the same three forms |
 //! | `verify/` | what became of reference cases, as text, JSON, CSV and a page of HTML |
@@ -20,6 +21,7 @@
 pub mod convergence;
 pub mod coverage;
 pub mod csv;
+pub mod datasheet;
 pub mod emva;
 mod ideal;
 #[cfg(feature = "image")]

@@ -14,6 +14,7 @@ mod check;
 mod checkpoint;
 mod converge;
 mod coverage;
+mod datasheet;
 mod disk;
 mod equation;
 mod explain;
@@ -49,6 +50,8 @@ struct Arguments {
 enum Command {
     /// Every problem of a scene file, or "ok".
     Check(check::Arguments),
+    /// The data sheet of a sensor: every quality index computed from its curves and measured on a virtual bench.
+    Datasheet(datasheet::Arguments),
     /// What will be computed, what is left out, and why.
     Explain(explain::Arguments),
     /// Equations of the lecture: list them, or compute one from its inputs.
@@ -92,6 +95,7 @@ enum Failure {
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Check(arguments) => check::run(&arguments),
+        Command::Datasheet(arguments) => datasheet::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Equation(arguments) => equation::run(&arguments),
         Command::Converge(arguments) => converge::run(&arguments),

@@ -235,7 +235,7 @@ const NORMAL: &[(f64, f64)] = &[
 ];
 
 #[test]
-fn the_normal_probability_agrees_with_references_and_integrates_its_density() {
+fn the_normal_cumulative_agrees_with_references_and_integrates_its_density() {
     for &(z, expected) in NORMAL {
         assert!((normal_cumulative(z) / expected - 1.0).abs() < 1e-12, "{z}: {}", normal_cumulative(z));
         let h = 1e-3;
@@ -246,4 +246,14 @@ fn the_normal_probability_agrees_with_references_and_integrates_its_density() {
     }
     let quantile = normal_quantile(0.1).unwrap();
     assert!((normal_cumulative(quantile) - 0.1).abs() < 1e-12);
+}
+
+#[test]
+fn normal_probabilities_and_quantiles_undo_each_other() {
+    for p in [1e-12, 1e-3, 0.2, 0.5, 0.8, 0.999] {
+        let z = normal_quantile(p).unwrap();
+        assert!((normal_cumulative(z) / p - 1.0).abs() < 1e-9, "{p}");
+    }
+    assert_eq!((normal_cumulative(f64::INFINITY), normal_cumulative(f64::NEG_INFINITY)), (1.0, 0.0));
+    assert!(normal_cumulative(f64::NAN).is_nan());
 }
