@@ -56,6 +56,11 @@ fn extreme_and_stiff_cases_agree_with_their_references() {
     run("g4");
 }
 
+#[test]
+fn the_camera_model_agrees_with_its_references() {
+    run("g6");
+}
+
 /// With the tables at hand nothing waits but what [`WAITING`] names, and whatever that names is a case.
 #[test]
 fn every_case_is_read_or_waits_for_a_stated_reason() {
