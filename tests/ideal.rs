@@ -114,7 +114,7 @@ fn an_ideal_meter_beside_a_real_one_indicates_what_it_should() {
     assert!((ideal.value - ideal_meter.value).abs() < 3.5 * u, "{} and {} with u = {u}", ideal.value, ideal_meter.value);
     // The arriving light is known better than either reading.
     let shared = ideal.parts.iter().map(|p| p.share_uncertainty).fold(0.0, f64::hypot);
-    assert!(shared < 0.2 * class_b.standard_uncertainty() / class_b.value, "{shared}");
+    assert!(shared < 0.5 * class_b.standard_uncertainty() / class_b.value, "{shared}");
 }
 
 #[test]

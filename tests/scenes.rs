@@ -168,6 +168,7 @@ fn laws() -> Vec<Law> {
             ..law("office.ron", [256, 256], &[])
         },
         law("mesh.ron", [131072, 65536], &[]),
+        law("ten-instruments.ron", [8192, 8192], &[]),
         Law {
             // The same with an analytic window, 4 000 000 paths: 558.0 ± 1.1.
             near: vec![("in the shade", 0, "E_v", 558.0, 0.006)],

@@ -12,7 +12,7 @@ use crate::metrology::{Budget, BudgetRow, Expanded, Replicates};
 use crate::plan::{Bound, Plan};
 use crate::quantity::Measurand;
 use crate::scene::{Instrument, Layout, Scene};
-use crate::sensor::{ResponsivityUncertainty, Sensor};
+use crate::sensor::{ResponsivityKind, ResponsivityUncertainty, Sensor};
 
 /// Relative half-width within which double-precision arithmetic keeps a formula; the formulas are tested far below it.
 pub(super) const ARITHMETIC: f64 = 1e-12;
@@ -204,6 +204,9 @@ fn read(
     }
     if !pose.target_met && value != 0.0 {
         notes.push("the target was not met within the samples or the time allowed".to_owned());
+    }
+    if channel.kind == ResponsivityKind::QuantumEfficiency {
+        notes.push(format!("has a {} in the channel `{}`", channel.kind.words(), channel.name));
     }
     let shares = channel.responsivity_uncertainty.iter().filter_map(|u| match u {
         ResponsivityUncertainty::Relative(share) => Some(share * value.abs()),

@@ -72,7 +72,7 @@ pub(super) fn read_readout(value: &Value, reading: &mut Reading) -> Option<Photo
     diode.current_a_per_unit = above_zero("current_a_per_unit", "the current of one unit", problems);
     diode.modulation = fields.get("modulation").and_then(|v| read_modulation(&v, bandwidth, problems));
     let bounded = diode.saturation_v.is_some() || diode.adc.is_some();
-    if let (Some(v), false) = (fields.get("display_digits"), bounded) {
+    if let (Some(v), false) = (fields.get("display_digits"), bounded || fields.get("adc").is_some()) {
         v.problem(
             problems,
             "digits of a display are counted from its largest reading, and there is none",

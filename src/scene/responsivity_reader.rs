@@ -15,8 +15,9 @@ use super::decode::Value;
 use super::document::{Body, Kind};
 use super::factor_range::{LARGEST, is_zero, outside_of};
 use super::reading::Reading;
-use super::spectrum_reader::{is_file, read_factor};
+use super::spectrum_reader::{FACTORS, is_file, read_factor};
 use crate::metrology::rounding::format_significant;
+use crate::naming::nearest;
 use crate::sensor::channel::quantum_limit_a_w;
 use crate::sensor::{ResponsivityKind, ResponsivityUncertainty};
 use crate::spectrum::file::Meaning;
@@ -69,6 +70,11 @@ pub(super) fn read_responsivity(value: &Value, reading: &mut Reading) -> Option<
 
 fn read_form(value: &Value, reading: &mut Reading) -> Option<Responsivity> {
     if !FORMS.contains(&value.name()) {
+        if let Some(meant) = nearest(value.name(), FORMS).filter(|_| !FACTORS.contains(&value.name())) {
+            let message = format!("`{}` is not a responsivity", value.name());
+            value.problem_at(&value.name_span(), &mut reading.problems, message, format!("did you mean `{meant}`?"));
+            return None;
+        }
         let (curve, stated, uncertainty) = read_curve(value, reading)?;
         let (scale, kind) = stated.unwrap_or((1.0, ResponsivityKind::Relative));
         return finished(value, curve, kind, scale, uncertainty, reading);
