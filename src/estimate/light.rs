@@ -58,6 +58,8 @@ enum Piece {
         v: DVec3,
         normal: DVec3,
         area_m2: f64,
+        /// Radius of the hole over that of the disc.
+        hole: f64,
     },
     Sphere {
         element: u32,
@@ -173,7 +175,8 @@ fn piece(shape: &Shape, element: u32, side: Side) -> Piece {
                 u: x * d.radius_m,
                 v: y * d.radius_m,
                 normal: side.sign() * d.normal,
-                area_m2: PI * d.radius_m * d.radius_m,
+                area_m2: d.area_m2(),
+                hole: d.hole_radius_m / d.radius_m,
             }
         }
         Shape::Sphere(s) => Piece::Sphere { element, sphere: *s, side },
@@ -193,8 +196,8 @@ fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
             let to = (polygon.corners()[0] - x) + polygon.sample_by_area(u);
             from_area(to, *normal, polygon.area_m2(), *element, NONE)
         }
-        Piece::Disc { element, centre, u: hu, v: hv, normal, area_m2 } => {
-            let [a, b] = sample_disc(u);
+        Piece::Disc { element, centre, u: hu, v: hv, normal, area_m2, hole } => {
+            let [a, b] = ring(sample_disc(u), *hole);
             from_area((*centre - x) + *hu * a + *hv * b, *normal, *area_m2, *element, NONE)
         }
         Piece::Point { at } => {
@@ -231,6 +234,17 @@ fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
             from_area(point - x, side.sign() * normal, mesh.area_m2(), *element, triangle)
         }
     }
+}
+
+/// A point of the unit disc moved outwards into a ring, equal areas to equal areas: ρ² → h² + (1 − h²) ρ².
+#[inline(always)]
+fn ring([a, b]: [f64; 2], hole: f64) -> [f64; 2] {
+    let square = a * a + b * b;
+    if hole > 0.0 && square > 0.0 {
+        let stretch = ((hole * hole + (1.0 - hole) * (1.0 + hole) * square) / square).sqrt();
+        return [stretch * a, stretch * b];
+    }
+    [a, b]
 }
 
 /// A point chosen with density 1/A: E = L A cosθ_r cosθ_s / r², with cosθ_r = n·to/r and cosθ_s = −n_s·to/r.

@@ -45,12 +45,7 @@ fn lies_on(pose: &Pose, shape: &Shape, side: Side, all_round: bool) -> bool {
     let (distance, size, normal) = match shape {
         Shape::Rectangle(r) => ((pose.at - nearest_point(r, pose.at)).length(), r.half_u.length().hypot(r.half_v.length()), r.normal()),
         Shape::Polygon(p) => ((pose.at - p.nearest_point(pose.at)).length(), p.bounding_sphere().1, p.normal()),
-        Shape::Disc(d) => {
-            let offset = pose.at - d.centre;
-            let height = offset.dot(d.normal);
-            let beyond = ((offset - d.normal * height).length() - d.radius_m).max(0.0);
-            (height.hypot(beyond), d.radius_m, d.normal)
-        }
+        Shape::Disc(d) => ((pose.at - d.nearest_point(pose.at)).length(), d.radius_m, d.normal),
         Shape::Sphere(s) => {
             let offset = pose.at - s.centre;
             ((offset.length() - s.radius_m).abs(), s.radius_m, offset.normalize_or_zero())
