@@ -141,6 +141,11 @@ fn laws() -> Vec<Law> {
                 ("half filled", 0, "L_v", 500.0),
             ],
         ),
+        law(
+            "field-stop.ron",
+            [65536, 65536],
+            &[("behind a baffle", 0, "E_v", 1000.0 * PI / 101.0), ("with a cone", 0, "E_v", 1000.0 * PI / 101.0)],
+        ),
         law("eye-on-a-display.ron", [1024, 4096], &display()),
         law(
             "tiny-source.ron",

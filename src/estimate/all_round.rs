@@ -53,7 +53,11 @@ fn of_shape(head: &Oriented, shape: &Shape, side: Side, at: DVec3) -> Bounded {
     match shape {
         Shape::Rectangle(r) => flat(&r.corners()),
         Shape::Polygon(p) => flat(p.corners()),
-        Shape::Disc(d) => head.disc(d.centre - at, side.sign() * d.normal, d.radius_m),
+        Shape::Disc(d) => {
+            let within = |radius_m: f64| head.disc(d.centre - at, side.sign() * d.normal, radius_m);
+            let (plate, hole) = (within(d.radius_m), within(d.hole_radius_m));
+            Bounded { value: (plate.value - hole.value).max(0.0), error: plate.error + hole.error }
+        }
         Shape::Sphere(s) => match (side, s.holds(at)) {
             (Side::Front, false) => head.sphere(s.centre - at, s.radius_m),
             (Side::Back, true) => from_within(head, s, at),

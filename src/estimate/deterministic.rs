@@ -15,7 +15,7 @@ use super::closed_form::aperture::{self, Bounded, aperture_average};
 use super::closed_form::{cone, directional, disc, exchange, point, polygon, polygon_in_cone, sphere};
 use crate::geometry::mesh::Mesh;
 use crate::geometry::rays::COINCIDENT;
-use crate::geometry::shape::{Shape, Side, Sphere};
+use crate::geometry::shape::{Disc, Shape, Side, Sphere};
 use crate::math::DVec3;
 use crate::scene::{Pose, Scene};
 use crate::sensor::{Acceptance, Aperture, Sensor};
@@ -128,7 +128,7 @@ fn over_hemisphere(shape: &Shape, side: Side, at: DVec3, normal: DVec3) -> f64 {
     match shape {
         Shape::Rectangle(r) => polygon::polygon(&facing(&r.corners(), at, side), normal),
         Shape::Polygon(p) => polygon::polygon(&facing(p.corners(), at, side), normal),
-        Shape::Disc(d) => disc::disc(d.centre - at, side.sign() * d.normal, d.radius_m, normal),
+        Shape::Disc(d) => of_ring(d, |radius_m| disc::disc(d.centre - at, side.sign() * d.normal, radius_m, normal)),
         Shape::Sphere(s) => match (side, s.holds(at)) {
             (Side::Front, false) => sphere::sphere(s.centre - at, s.radius_m, normal),
             (Side::Back, true) => from_within(s, at, normal, FRAC_PI_2),
@@ -151,7 +151,7 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
         Shape::Disc(d) => {
             let front = side.sign() * d.normal;
             if disc::receiver_in_front(d.centre - at, front) {
-                disc::disc_in_cone(d.centre - at, front, d.radius_m, normal, half_angle_rad)
+                of_ring(d, |radius_m| disc::disc_in_cone(d.centre - at, front, radius_m, normal, half_angle_rad))
             } else {
                 0.0
             }
@@ -163,6 +163,12 @@ fn within_cone(shape: &Shape, side: Side, at: DVec3, normal: DVec3, half_angle_r
         },
         Shape::Mesh(m) => lit_triangles(m, side, at, normal).map(|corners| of_polygon(&corners)).sum(),
     }
+}
+
+/// A function of a disc's radius for a disc, or the difference of plate and hole for a ring.
+fn of_ring(d: &Disc, of_radius: impl Fn(f64) -> f64) -> f64 {
+    let plate = of_radius(d.radius_m);
+    if d.hole_radius_m > 0.0 { (plate - of_radius(d.hole_radius_m)).max(0.0) } else { plate }
 }
 
 /// Projected solid angle under which a receiver within a luminous sphere sees it: all that it accepts, or, on the wall itself, the half
@@ -217,7 +223,8 @@ fn whole_aperture(scene: &Scene, sensor: &Sensor, pose: &Pose, source: &Source) 
             let facing = side.sign() * d.normal;
             let size = height.abs() + d.radius_m + radius_m;
             let coaxial = pose.normal.cross(to).length() <= 1e-12 * size && (facing + pose.normal).length() <= 1e-12 && height > 0.0;
-            coaxial.then(|| Bounded { value: exchange::coaxial_discs(radius_m, d.radius_m, height) / area, error: 0.0 })
+            coaxial
+                .then(|| Bounded { value: of_ring(d, |emitter_m| exchange::coaxial_discs(radius_m, emitter_m, height)) / area, error: 0.0 })
         }
         (shape @ (Shape::Rectangle(_) | Shape::Polygon(_)), Aperture::Rectangle { half_width_m, half_height_m }) => {
             let (u, v) = (half_width_m * pose.x_axis, half_height_m * pose.y_axis());

@@ -69,6 +69,8 @@ enum Piece {
         normal: DVec3,
         area_m2: f64,
         frame: Frame,
+        /// Radius of the hole over that of the disc.
+        hole: f64,
     },
     Sphere {
         element: u32,
@@ -190,7 +192,8 @@ fn piece(shape: &Shape, element: u32, side: Side) -> Piece {
                 u: x * d.radius_m,
                 v: y * d.radius_m,
                 normal: side.sign() * d.normal,
-                area_m2: PI * d.radius_m * d.radius_m,
+                area_m2: d.area_m2(),
+                hole: d.hole_radius_m / d.radius_m,
                 frame: Frame::disc(d.centre, d.radius_m, side.sign() * d.normal),
             }
         }
@@ -217,11 +220,14 @@ fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
             let to = (polygon.corners()[0] - x) + polygon.sample_by_area(u);
             from_area(to, *normal, polygon.area_m2(), *element, NONE)
         }
-        Piece::Disc { element, centre, u: hu, v: hv, normal, area_m2, frame } => {
+        Piece::Disc { element, centre, u: hu, v: hv, normal, area_m2, hole, frame } => {
             if let Some(place) = frame.sample_disc(x, u) {
-                return from_near(place, *element, NONE);
+                // What is drawn in the hole of a ring brings nothing.
+                let in_hole = *hole > 0.0 && ((x - *centre) + place.to).length_squared() < hole * hole * hu.length_squared();
+                let weight = if in_hole { 0.0 } else { place.weight };
+                return from_near(Place { weight, ..place }, *element, NONE);
             }
-            let [a, b] = sample_disc(u);
+            let [a, b] = ring(sample_disc(u), *hole);
             from_area((*centre - x) + *hu * a + *hv * b, *normal, *area_m2, *element, NONE)
         }
         Piece::Point { at } => {
@@ -276,6 +282,17 @@ fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
 #[inline(always)]
 fn from_near(place: Place, element: u32, part: u32) -> Connection {
     Connection { to: place.to, t_end: 1.0, weight: place.weight, group: 0, element, part }
+}
+
+/// A point of the unit disc moved outwards into a ring, equal areas to equal areas: ρ² → h² + (1 − h²) ρ².
+#[inline(always)]
+fn ring([a, b]: [f64; 2], hole: f64) -> [f64; 2] {
+    let square = a * a + b * b;
+    if hole > 0.0 && square > 0.0 {
+        let stretch = ((hole * hole + (1.0 - hole) * (1.0 + hole) * square) / square).sqrt();
+        return [stretch * a, stretch * b];
+    }
+    [a, b]
 }
 
 /// A point chosen with density 1/A: E = L A cosθ_r cosθ_s / r², with cosθ_r = n·to/r and cosθ_s = −n_s·to/r.

@@ -232,7 +232,8 @@ mod tests {
 
         #[test]
         fn a_rectangle_brings_its_closed_form_from_any_distance(
-            power in -9.0..0.0_f64, aspect in 0.0..4.0_f64, along in -0.7..0.7_f64, edge in prop::sample::select(vec![-1.0, -0.3, 0.9]),
+            // Near: within two half diagonals of the rectangle.
+            power in -9.0..-0.31_f64, aspect in 0.0..4.0_f64, along in -0.7..0.7_f64, edge in prop::sample::select(vec![-1.0, -0.3, 0.9]),
             tilt in -1.5..1.5_f64,
         ) {
             let (half, gap) = (0.5 / 10f64.powf(aspect), 10f64.powf(power));

@@ -194,7 +194,7 @@ fn touching(shape: &Shape, pose: &Pose, slack: f64) -> Option<DVec3> {
         Shape::Polygon(p) => ((pose.at - p.nearest_point(pose.at)).length() <= slack, p.normal()),
         Shape::Disc(d) => {
             let to = pose.at - d.centre;
-            (d.normal.dot(to).abs() <= slack && to.length() <= d.radius_m + slack, d.normal)
+            (d.normal.dot(to).abs() <= slack && to.length() <= d.radius_m + slack && to.length() >= d.hole_radius_m - slack, d.normal)
         }
         Shape::Sphere(s) => {
             let to = pose.at - s.centre;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! t = n·(c − o) / n·d,   (a, b) = ((o + t d − c)·u/|u|², (o + t d − c)·v/|v|²)
-//! rectangle: |a| ≤ 1 and |b| ≤ 1      disc: a² + b² ≤ 1      polygon: an odd number of edges above (a, b)
+//! rectangle: |a| ≤ 1 and |b| ≤ 1      disc: h² ≤ a² + b² ≤ 1, h the share of a hole      polygon: an odd number of edges above (a, b)
 //! ```
 //!
 //! A ray that leaves a flat cannot meet it again: it is told apart by its index, so no distance has to be called small.
@@ -22,17 +22,26 @@ pub(super) struct Flat {
     /// u/|u|² and v/|v|²: they turn a point of the plane into parameters.
     pub(super) u: DVec3,
     pub(super) v: DVec3,
+    /// a² + b² on the rim of a hole; zero without one.
+    hole: f64,
 }
 
 impl Flat {
     pub(super) fn rectangle(element: u32, r: &Rectangle) -> Flat {
         let inverse = |half: DVec3| half.normalize() / half.length();
-        Flat { element, centre: r.centre, normal: r.normal(), u: inverse(r.half_u), v: inverse(r.half_v) }
+        Flat { element, centre: r.centre, normal: r.normal(), u: inverse(r.half_u), v: inverse(r.half_v), hole: 0.0 }
     }
 
     pub(super) fn disc(element: u32, d: &Disc) -> Flat {
         let (x, y) = tangents(d.normal);
-        Flat { element, centre: d.centre, normal: d.normal, u: x / d.radius_m, v: y / d.radius_m }
+        Flat {
+            element,
+            centre: d.centre,
+            normal: d.normal,
+            u: x / d.radius_m,
+            v: y / d.radius_m,
+            hole: (d.hole_radius_m / d.radius_m).powi(2),
+        }
     }
 }
 
@@ -54,7 +63,8 @@ pub(super) fn nearest<const ROUND: bool>(flats: &[Flat], rays: &Rays, hits: &mut
     for flat in flats {
         for lane in 0..LANES {
             let (t, a, b) = meet(flat, rays, lane);
-            let within = if ROUND { a * a + b * b <= 1.0 } else { (a.abs() <= 1.0) & (b.abs() <= 1.0) };
+            let round = a * a + b * b;
+            let within = if ROUND { (round <= 1.0) & (round >= flat.hole) } else { (a.abs() <= 1.0) & (b.abs() <= 1.0) };
             let nearer = (t > 0.0) & (t < hits.t[lane] * (1.0 - COINCIDENT)) & within & (rays.leaving[lane] != flat.element);
             hits.t[lane] = if nearer { t } else { hits.t[lane] };
             hits.element[lane] = if nearer { flat.element } else { hits.element[lane] };
@@ -69,7 +79,8 @@ pub(super) fn cut<const ROUND: bool>(flats: &[Flat], rays: &Rays, blocked: &mut 
     for flat in flats {
         for lane in 0..LANES {
             let (t, a, b) = meet(flat, rays, lane);
-            let within = if ROUND { a * a + b * b <= 1.0 } else { (a.abs() <= 1.0) & (b.abs() <= 1.0) };
+            let round = a * a + b * b;
+            let within = if ROUND { (round <= 1.0) & (round >= flat.hole) } else { (a.abs() <= 1.0) & (b.abs() <= 1.0) };
             blocked[lane] |= (t > 0.0)
                 & (t < rays.t_end[lane] * (1.0 - COINCIDENT))
                 & within
@@ -91,7 +102,7 @@ impl Outline {
         let (x, y) = tangents(p.normal());
         let first = p.corners()[0];
         let size = p.corners().iter().map(|&c| (c - first).length()).fold(0.0, f64::max);
-        let flat = Flat { element, centre: first, normal: p.normal(), u: x / size, v: y / size };
+        let flat = Flat { element, centre: first, normal: p.normal(), u: x / size, v: y / size, hole: 0.0 };
         let corners = p.corners().iter().map(|&c| [flat.u.dot(c - first), flat.v.dot(c - first)]).collect();
         Outline { flat, corners }
     }

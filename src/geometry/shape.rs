@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | `Rectangle` | centre ± `half_u` ± `half_v` | the side of `half_u × half_v` |
 //! | `Polygon` | the plane figure within its corners | the side from which the corners run counter-clockwise |
-//! | `Disc` | the points within `radius_m` of the centre, in the plane of `normal` | the side of `normal` |
+//! | `Disc` | the points within `radius_m` of the centre and not within `hole_radius_m`, in the plane of `normal` | the side of `normal` |
 //! | `Sphere` | the points at `radius_m` from the centre | the outside |
 //! | `Mesh` | triangles | the side from which the vertices run counter-clockwise |
 //!
@@ -16,6 +16,7 @@ use super::mesh::Mesh;
 use super::polygon::Polygon;
 use super::rays::COINCIDENT;
 use crate::math::DVec3;
+use crate::math::frame::tangents;
 
 /// A plane rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +50,7 @@ impl Rectangle {
     }
 }
 
-/// A plane disc.
+/// A plane disc, or a ring: a plate with a round hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
     /// Centre, m.
@@ -58,6 +59,28 @@ pub struct Disc {
     pub normal: DVec3,
     /// Radius, m.
     pub radius_m: f64,
+    /// Radius of the hole about the centre, m; zero for a disc.
+    pub hole_radius_m: f64,
+}
+
+impl Disc {
+    /// Area in m².
+    #[must_use]
+    pub fn area_m2(&self) -> f64 {
+        std::f64::consts::PI * (self.radius_m - self.hole_radius_m) * (self.radius_m + self.hole_radius_m)
+    }
+
+    /// The point of the disc or ring that is nearest to `point`, m.
+    #[must_use]
+    pub fn nearest_point(&self, point: DVec3) -> DVec3 {
+        let offset = point - self.centre;
+        let flat = offset - self.normal * offset.dot(self.normal);
+        if flat.length() >= self.hole_radius_m {
+            return self.centre + flat.clamp_length_max(self.radius_m);
+        }
+        // On the axis every point of the rim is as near.
+        self.centre + self.hole_radius_m * flat.try_normalize().unwrap_or_else(|| tangents(self.normal).0)
+    }
 }
 
 /// A sphere.
@@ -122,7 +145,7 @@ impl Shape {
         match self {
             Shape::Rectangle(r) => r.area_m2(),
             Shape::Polygon(p) => p.area_m2(),
-            Shape::Disc(d) => PI * d.radius_m * d.radius_m,
+            Shape::Disc(d) => d.area_m2(),
             Shape::Sphere(s) => 4.0 * PI * s.radius_m * s.radius_m,
             Shape::Mesh(m) => m.area_m2(),
         }
@@ -178,7 +201,8 @@ impl Shape {
             Shape::Disc(d) => {
                 let to = point - d.centre;
                 let height = to.dot(d.normal);
-                ((to - height * d.normal).length() - d.radius_m).max(0.0).hypot(height)
+                let aside = (to - height * d.normal).length();
+                (aside - d.radius_m).max(d.hole_radius_m - aside).max(0.0).hypot(height)
             }
             Shape::Sphere(s) => ((point - s.centre).length() - s.radius_m).abs(),
             Shape::Mesh(_) => f64::INFINITY,

@@ -6,6 +6,7 @@
 //! | `Quad(corner: …, u: …, v: …)` | a rectangle by one corner and two edges; its front is the side of u × v | itself |
 //! | `Polygon([(x, y, z), …])` | a plane polygon by its corners; its front is the side from which they run counter-clockwise | itself |
 //! | `Disc(radius)` | centred at `at` | `at`, `facing`, `up` or `turned_deg` |
+//! | `Annulus(inner, outer)` | a plate with a round hole, centred at `at`; radii | `at`, `facing`, `up` or `turned_deg` |
 //! | `Sphere(radius)` | centred at `at` | `at` |
 //! | `Box(size: (x, y, z))` | its lowest corner at `at`; six rectangles that face outwards | `at`, `turned_deg` |
 //! | `Mesh("file.obj")` | triangles; points × `scale`, turned, moved to `at` | `at`, `turned_deg`, `scale` |
@@ -19,7 +20,7 @@ use crate::geometry::shape::{Disc, Rectangle, Shape, Sphere};
 use crate::math::DVec3;
 
 /// The shapes that an object can have; sources have more.
-pub(super) const SHAPES: [&str; 7] = ["Rectangle", "Quad", "Polygon", "Disc", "Sphere", "Box", "Mesh"];
+pub(super) const SHAPES: [&str; 8] = ["Rectangle", "Quad", "Polygon", "Disc", "Annulus", "Sphere", "Box", "Mesh"];
 
 /// How far from perpendicular the edges of a quad may be: the cosine of the angle between them.
 const PERPENDICULAR: f64 = 1e-9;
@@ -59,7 +60,25 @@ pub(super) fn read_shape(shape: &Value, fields: &Fields, reading: &mut Reading) 
             let place = read_flat(fields, &mut reading.problems);
             let radius_m = read_radius(shape, "Disc(radius)", reading);
             let (place, radius_m) = (place?, radius_m?);
-            Some(vec![Shape::Disc(Disc { centre: place.at, normal: place.z, radius_m })])
+            Some(vec![Shape::Disc(Disc { centre: place.at, normal: place.z, radius_m, hole_radius_m: 0.0 })])
+        }
+        "Annulus" => {
+            refuse(&["scale"], "only a mesh is scaled", reading);
+            let place = read_flat(fields, &mut reading.problems);
+            let radii = shape.positional(2, "Annulus(inner, outer)", &mut reading.problems)?;
+            let inner = radii[0].length_m("the inner radius", 1.0, &mut reading.problems);
+            let outer = radii[1].length_m("the outer radius", 1.0, &mut reading.problems);
+            let (place, inner, outer) = (place?, inner?, outer?);
+            if inner >= outer {
+                let message = format!("the inner radius of the ring, {inner} m, is not below the outer one, {outer} m");
+                radii[0].problem(
+                    &mut reading.problems,
+                    message,
+                    "write `Annulus(inner, outer)`: the radius of the hole, then that of the plate",
+                );
+                return None;
+            }
+            Some(vec![Shape::Disc(Disc { centre: place.at, normal: place.z, radius_m: outer, hole_radius_m: inner })])
         }
         "Sphere" => {
             refuse(&["facing", "up", "turned_deg"], "a sphere looks the same from everywhere", reading);

@@ -75,6 +75,7 @@ impl Emission<'_> {
             Emission::Area { shapes: [Shape::Sphere(_)], inwards: true, .. } => "the inside of a sphere",
             Emission::Area { shapes: [Shape::Rectangle(_)], .. } => "a rectangle",
             Emission::Area { shapes: [Shape::Polygon(_)], .. } => "a polygon",
+            Emission::Area { shapes: [Shape::Disc(d)], .. } if d.hole_radius_m > 0.0 => "a ring",
             Emission::Area { shapes: [Shape::Disc(_)], .. } => "a disc",
             Emission::Area { shapes: [Shape::Sphere(_)], .. } => "a sphere",
             Emission::Area { .. } => "a source of this shape",
@@ -117,7 +118,10 @@ fn on_axis_per_radiance(shape: &Shape, inwards: bool, at_m: f64) -> Option<f64> 
             let (p, q) = (x.hypot(1.0), y.hypot(1.0));
             Some(2.0 * (x / p * (y / p).atan() + y / q * (x / q).atan()))
         }
-        Shape::Disc(d) => Some(PI * (d.radius_m / d.radius_m.hypot(at_m)).powi(2)),
+        Shape::Disc(d) => {
+            let within = |radius_m: f64| PI * (radius_m / radius_m.hypot(at_m)).powi(2);
+            Some(within(d.radius_m) - within(d.hole_radius_m))
+        }
         Shape::Sphere(s) if !inwards => Some(PI * (s.radius_m / at_m).powi(2)),
         _ => None,
     }

@@ -185,6 +185,7 @@ fn formulas_and_samples_agree_at_heads() {
     for shape in [
         "shape: Rectangle(2, 1), at: (0.5, 0, 1), facing: (0.1, 0, -1)",
         "shape: Disc(0.7), at: (0.5, 0, -1), facing: (0.1, 0, 1)",
+        "shape: Annulus(0.3, 0.7), at: (0.5, 0, 1), facing: (0.1, 0, -1)",
         "shape: Sphere(0.7), at: (0.5, 0, -1)",
         "shape: Sphere(2), at: (0.5, 0, 1), seen_from: Inside",
         "shape: Box(size: (1, 1, 0.5)), at: (0, 0, 0.5), turned_deg: (10, 20, 30)",

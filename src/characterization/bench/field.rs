@@ -84,7 +84,12 @@ impl Bench<'_> {
         }
         let disc = |height_m: f64, angle: f64| Element {
             owner: "screen".to_owned(),
-            shape: Shape::Disc(Disc { centre: height_m * DVec3::Z, normal: DVec3::NEG_Z, radius_m: height_m * angle.tan() }),
+            shape: Shape::Disc(Disc {
+                centre: height_m * DVec3::Z,
+                normal: DVec3::NEG_Z,
+                radius_m: height_m * angle.tan(),
+                hole_radius_m: 0.0,
+            }),
             front: 0,
             back: 0,
         };

@@ -11,23 +11,23 @@ use crate::sensor::Sensor;
 use super::PlotError;
 use super::chart::{Anchor, Axis, Chart, Curve, Ink, Note};
 use super::sample::every;
-use super::sensor::{Cut, cuts, reach_deg, styled, subtitle};
+use super::sensor::{Cut, cuts, reach_deg, response_words, styled, subtitle};
 
 /// Response over the angle of incidence in polar coordinates, with the cosine behind. Errors if there is no sensor.
 pub fn chart(sensors: &[Sensor]) -> Result<Chart, PlotError> {
     let cuts = cuts(sensors)?;
     let reach_deg = reach_deg(&cuts);
+    let [what, one] = response_words(reach_deg);
     let curve = |cut: &Cut| -> Vec<[f64; 2]> { cut.angles_rad(-reach_deg, reach_deg).into_iter().map(|t| at(cut.to_beam(t), t)).collect() };
     let drawn: Vec<Vec<[f64; 2]>> = cuts.iter().map(curve).collect();
     let largest = drawn.iter().flatten().map(|p| p[0].hypot(p[1])).fold(1.0, f64::max);
     // A response that is larger along some other direction by a hair does not need another circle.
     let rim = 0.25 * (4.0 * largest - 0.05).ceil();
-    let hidden =
-        |from: f64, to: f64| Axis { visible: false, ..Axis::linear("Relative response R(θ) cos θ", "1 along the normal", from, to) };
-    let done = "response R(θ) cos θ to a parallel beam, 1 along the normal";
+    let hidden = |from: f64, to: f64| Axis { visible: false, ..Axis::linear(&format!("Relative response {what}"), one, from, to) };
+    let done = format!("response {what} to a parallel beam, {one}");
     let mut chart = Chart::new(
         "Directional response",
-        &subtitle(sensors, done),
+        &subtitle(sensors, &done),
         hidden(-1.18 * rim, 1.18 * rim),
         hidden(if reach_deg > 90.0 { -1.13 * rim } else { -0.12 * rim }, 1.13 * rim),
     );
@@ -60,7 +60,7 @@ fn grid(chart: &mut Chart, rim: f64, reach_deg: f64) {
         }
     }
     chart.notes.push(note("0".to_owned(), [0.0, 0.0], [0.0, -0.9], Anchor::Middle));
-    chart.notes.push(note("R(θ) cos θ (1)".to_owned(), [-0.5 * rim, 0.0], [0.0, -0.9], Anchor::Middle));
+    chart.notes.push(note(format!("{} (1)", response_words(reach_deg)[0]), [-0.5 * rim, 0.0], [0.0, -0.9], Anchor::Middle));
     let spokes = (reach_deg / 15.0) as i32;
     // 180° on either side is the same spoke.
     for step in if spokes == 12 { -11 } else { -spokes }..=spokes {

@@ -125,7 +125,7 @@ pub fn directional(sensors: &[Sensor]) -> Result<Chart, PlotError> {
         ..Axis::linear("Angle of incidence θ", "°", from, to)
     };
     let largest = cuts.iter().flat_map(|cut| cut.angles_rad(-reach_deg, reach_deg).into_iter().map(|t| cut.to_beam(t))).fold(1.0, f64::max);
-    let y = Axis::linear("Relative response R(θ) cos θ", "1 along the normal", 0.0, 1.05 * largest);
+    let y = Axis::linear(&format!("Relative response {}", response_words(reach_deg)[0]), response_words(reach_deg)[1], 0.0, 1.05 * largest);
     let mut chart = Chart::new("Directional response", &subtitle(sensors, "to a parallel beam"), degrees(-reach_deg, reach_deg), y);
     let cosine = every(-90.0, 90.0, STEP_DEG).into_iter().map(|d| [d, d.to_radians().cos().max(0.0)]).collect();
     chart.curves.push(Curve::new("cos θ", cosine, Ink::Muted).behind());
@@ -193,6 +193,11 @@ pub(super) fn cuts(sensors: &[Sensor]) -> Result<Vec<Cut>, PlotError> {
             false => PLANES_DEG.iter().map(|deg| cut(sensor, Some(*deg))).collect(),
         })
         .collect())
+}
+
+/// What is drawn, and where it is one.
+pub(super) fn response_words(reach_deg: f64) -> [&'static str; 2] {
+    if reach_deg > 90.0 { ["w(θ)", "1 at the largest"] } else { ["R(θ) cos θ", "1 along the normal"] }
 }
 
 /// How far from the normal a chart goes, degrees.

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::SAME;
-use crate::geometry::shape::{Shape, Side};
+use crate::geometry::shape::{Disc, Shape, Side};
 use crate::math::DVec3;
 use crate::scene::Scene;
 use crate::scene::diagnostic::Problems;
@@ -76,14 +76,19 @@ fn overlap(a: &Emitting, b: &Emitting) -> bool {
         return false;
     }
     match (a.shape, b.shape) {
-        (Shape::Disc(d), Shape::Disc(e)) => offset.length() < (d.radius_m + e.radius_m) * (1.0 - SAME),
+        (Shape::Disc(d), Shape::Disc(e)) => {
+            let in_hole = |ring: &Disc, other: &Disc| offset.length() + other.radius_m <= ring.hole_radius_m * (1.0 + SAME);
+            offset.length() < (d.radius_m + e.radius_m) * (1.0 - SAME) && !in_hole(d, e) && !in_hole(e, d)
+        }
         (Shape::Disc(d), shape) | (shape, Shape::Disc(d)) => {
             let nearest = match shape {
                 Shape::Rectangle(r) => nearest_point(r, d.centre),
                 Shape::Polygon(p) => p.nearest_point(d.centre),
                 _ => return false,
             };
-            (nearest - d.centre).length() < d.radius_m * (1.0 - SAME)
+            let (centre, radius_m) = shape.bounding_sphere();
+            let in_hole = (centre - d.centre).length() + radius_m <= d.hole_radius_m * (1.0 + SAME);
+            (nearest - d.centre).length() < d.radius_m * (1.0 - SAME) && !in_hole
         }
         (shape, other) => {
             let (parts, others) = (convex_parts(shape), convex_parts(other));

@@ -127,11 +127,7 @@ impl Container {
         let towards = match &element.shape {
             Shape::Rectangle(r) => nearest_point(r, self.centre),
             Shape::Polygon(p) => p.nearest_point(self.centre),
-            Shape::Disc(d) => {
-                let offset = self.centre - d.centre;
-                let flat = offset - d.normal * offset.dot(d.normal);
-                d.centre + flat.clamp_length_max(d.radius_m)
-            }
+            Shape::Disc(d) => d.nearest_point(self.centre),
             Shape::Sphere(s) => {
                 let offset = self.centre - s.centre;
                 // A sphere about the whole container is around it, not in it.

@@ -68,12 +68,7 @@ fn lies_on(pose: &Pose, at: DVec3, shape: &Shape, side: Side, all_round: bool) -
     let (distance, size, normal) = match shape {
         Shape::Rectangle(r) => ((at - nearest_point(r, at)).length(), r.half_u.length().hypot(r.half_v.length()), r.normal()),
         Shape::Polygon(p) => ((at - p.nearest_point(at)).length(), p.bounding_sphere().1, p.normal()),
-        Shape::Disc(d) => {
-            let offset = at - d.centre;
-            let height = offset.dot(d.normal);
-            let beyond = ((offset - d.normal * height).length() - d.radius_m).max(0.0);
-            (height.hypot(beyond), d.radius_m, d.normal)
-        }
+        Shape::Disc(d) => ((at - d.nearest_point(at)).length(), d.radius_m, d.normal),
         Shape::Sphere(s) => {
             let offset = at - s.centre;
             ((offset.length() - s.radius_m).abs(), s.radius_m, offset.normalize_or_zero())
