@@ -1,3 +1,5 @@
+//! Laws of the photodiode readout: closed forms of its noise, conservation, order, and the spread of noisy readings.
+
 use proptest::prelude::*;
 
 use super::*;
