@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The last one is the index of the surrounding field as the literature on CIE 69 describes it. The sizes are this project's: the black
-//! field is 10 % wider than the measuring field, the surround ten times as wide or 80°, whichever is less.
+//! field is 10 % wider than the measuring field, the surround three times as wide or 80°, whichever is less.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -22,14 +22,14 @@ use crate::spectrum::Density;
 /// Poses of each of the two scans.
 const POSES: u32 = 400;
 /// Rays of the screen.
-const SAMPLES: u64 = 1 << 15;
+const SAMPLES: u64 = 1 << 18;
 /// How much wider than the field the black disc is.
 const BLACK_OVER_FIELD: f64 = 1.1;
 /// Distance of the screen in radii of the aperture, for a field of 1 rad; and the radius that stands for a point, m.
 const APART: f64 = 1e3;
 const NO_APERTURE_M: f64 = 1e-3;
 /// How much wider than the field the surround is, and its largest half-angle, degrees.
-const SURROUND_OVER_FIELD: f64 = 10.0;
+const SURROUND_OVER_FIELD: f64 = 3.0;
 const WIDEST_SURROUND_DEG: f64 = 80.0;
 
 /// What was found about a measuring field.
