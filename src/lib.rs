@@ -65,7 +65,7 @@
 //! | 6 | [`measurement`] | estimates → readings with budget and provenance | printing |
 //! | 7 | [`characterization`] | quality indices of instruments | fitting, printing |
 //! | 7 | [`lecture`] | the equations of a lecture by name, each a call of the library | physics of its own |
-//! | 8 | [`study`] | what readings are worth: reference cases, error against run time | printing, clocks of its own |
+//! | 8 | [`study`] | what readings are worth: reference cases, error against run time, coverage, what rules save | printing, clocks of its own |
 //! | 9 | [`report`] | text, JSON, CSV, plots | computing anything else |
 //! | 10 | `bin/etendue` | arguments, files, screens | physics |
 //!

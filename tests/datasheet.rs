@@ -165,7 +165,7 @@ fn the_class_is_as_sure_as_the_index() {
     let (f1, class) = (named(&open, "f1′"), open.channels[0].class.unwrap());
     assert!(f1.stated_u > 0.1 && class.probability < 0.99, "{f1:?} {class:?}");
     let z = (6.0 - f1.measured.value) / f1.standard_uncertainty();
-    let p = etendue::metrology::distribution::normal_probability(z);
+    let p = etendue::metrology::distribution::normal_cumulative(z);
     assert!((class.probability / p - 1.0).abs() < 1e-6);
 }
 

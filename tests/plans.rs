@@ -6,7 +6,7 @@
 
 mod disk;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use disk::{Repository, files_in, root};
@@ -120,18 +120,41 @@ fn every_rule_has_a_page_that_shows_what_it_does() {
             plans.get(&format!("explain --without {rule}")).unwrap_or_else(|| panic!("{name}: no block `explain --without {rule}`"));
         let without: String = without.lines().filter(|line| !line.starts_with("switched off:")).map(|line| format!("{line}\n")).collect();
         assert_ne!(*with, without, "{name}: the rule changes nothing");
-        // Rules that leave out or narrow are named with what they did; a choice shows in the method.
-        let by_name = !without.contains(&format!("({rule})"));
-        assert!(by_name, "{name}: named although it is switched off");
+        assert!(with.contains(&format!("({rule})")), "{name}: not named where it acts");
+        assert!(!without.contains(&format!("({rule})")), "{name}: named although it is switched off");
     }
 }
 
+/// The names in brackets that a line of a plan ends its phrases with.
+fn named(line: &str) -> BTreeSet<&str> {
+    let inner = line.split('(').skip(1).filter_map(|rest| rest.split_once(')'));
+    inner.map(|(name, _)| name).filter(|name| rule_names().contains(name)).collect()
+}
+
 #[test]
-fn the_pages_of_omissions_name_their_rule() {
-    for rule in etendue::plan::omit::RULES {
-        let name = format!("{}.md", rule.name);
-        let page = fs::read_to_string(root().join(FOLDER).join(&name)).unwrap();
-        let (_, plans) = written(&name, &page);
-        assert!(plans["explain"].contains(&format!("({})", rule.name)), "{name}");
+fn explain_names_exactly_the_rules_that_act() {
+    let mut seen = BTreeSet::new();
+    for folder in ["scenes", "scenes/lecture"] {
+        for file in files_in(folder, &[".ron"]) {
+            let scene = read_scene(&format!("{folder}/{file}"), &Repository, None).unwrap_or_else(|problems| panic!("{problems}"));
+            for without in std::iter::once(None).chain(rule_names().into_iter().map(Some)) {
+                let options = PlanOptions { naive: false, without: without.map(str::to_owned).into_iter().collect() };
+                let plan = Plan::new(&scene, &options).unwrap();
+                let explained = plan.explain(&scene);
+                let rows =
+                    explained.lines().filter(|l| ["kept ", "left out ", "narrowed "].iter().any(|verb| l.trim_start().starts_with(verb)));
+                let mut cited = BTreeSet::new();
+                for row in rows {
+                    let names = named(row);
+                    let by_rays = ["sample the source, shadow rays", "sample the sky, shadow rays", "paths with next-event estimation"];
+                    assert_eq!(names.is_empty(), by_rays.iter().any(|words| row.ends_with(words)), "{file}: {row}");
+                    cited.extend(names);
+                }
+                assert_eq!(cited, plan.acting().into_iter().collect(), "{file} without {without:?}\n{explained}");
+                seen.extend(cited.iter().map(ToString::to_string));
+            }
+            assert!(Plan::new(&scene, &PlanOptions { naive: true, without: Vec::new() }).unwrap().acting().is_empty(), "{file}");
+        }
     }
+    assert_eq!(seen, rule_names().into_iter().map(str::to_owned).collect(), "rules that no scene of the shelf shows");
 }

@@ -25,6 +25,7 @@ use etendue::measurement::{Measurement, Reading, measure};
 use etendue::metrology::{Budget, BudgetRow};
 use etendue::observer::{AlphaOpic, Individual};
 use etendue::plan::{Plan, PlanOptions};
+use etendue::quantity::air::wavelength_in_vacuum_nm;
 use etendue::report::json::to_json;
 use etendue::scene::{Scene, read_scene};
 
@@ -106,6 +107,20 @@ fn laws() -> Vec<Law> {
             ],
         ),
         law(
+            "flat-field.ron",
+            [1024, 16384],
+            &[
+                ("pixel", 0, "E_e", 3.0 * PI / 257.0),
+                // µmol/J of 525 nm in air: λ_vac/(h c N_A).
+                (
+                    "pixel",
+                    0,
+                    "E_p",
+                    3.0 * PI / 257.0 * wavelength_in_vacuum_nm(525.0) * 1e-3 / (6.626_070_15e-34 * 299_792_458.0 * 6.022_140_76e23),
+                ),
+            ],
+        ),
+        law(
             "narrow-acceptance.ron",
             [1024, 16384],
             &[
@@ -116,11 +131,29 @@ fn laws() -> Vec<Law> {
             ],
         ),
         law("heads-that-see-all-round.ron", [1024, 16384], &heads()),
+        law(
+            "luminance-meter.ron",
+            [4096, 4096],
+            &[
+                ("filled", 0, "L_v", 1000.0),
+                ("out of focus", 0, "L_v", 1000.0),
+                ("not filled", 0, "L_v", 1000.0 * share_of_spot(0.004)),
+                ("half filled", 0, "L_v", 500.0),
+            ],
+        ),
         law("eye-on-a-display.ron", [1024, 4096], &display()),
         law(
             "tiny-source.ron",
             [1024, 4096],
             &[("meter", 0, "E_v", 1.01853 * 0.75f64.sqrt() * 1e9 * PI * 1.784_124_116_152_77e-5f64.powi(2))],
+        ),
+        law("penumbra.ron", [16384, 16384], &[("meter", 0, "E_v", half_hidden_panel())]),
+        law("unseen-lamps.ron", [16384, 16384], &[("meter", 0, "E_v", half_hidden_panel())]),
+        law("light-traps.ron", [1024, 4096], &[("meter", 0, "E_v", 2000.0 * PI * 0.01 / 4.01)]),
+        law(
+            "stray-lamp.ron",
+            [16384, 16384],
+            &[("spot", 0, "L_v", 100.0), ("at the spot", 0, "E_v", 100.0 * PI * 0.25 / 100.25 + 100.0 * disc(2.0, 10.0))],
         ),
         law("ideal-integrating-sphere.ron", [1024, 4096], &[("port", 0, "E_v", 1000.0 / (4.0 * PI * 0.0625 * 0.02))]),
         Law {
@@ -141,6 +174,18 @@ fn laws() -> Vec<Law> {
             ..law("sun-and-window.ron", [65536, 65536], &[])
         },
     ]
+}
+
+/// A disc in the plane of focus over the measured field of 1° at 1 m, its edge 5 % wide, through a pupil of 10 mm: étendues of coaxial discs,
+/// that of the field by the midpoint rule over its edge.
+fn share_of_spot(radius_m: f64) -> f64 {
+    let etendue = |r: f64| {
+        let p = 1e-4 + r * r + 1.0;
+        r * r / (p + (p * p - 4e-4 * r * r).sqrt())
+    };
+    let (field, n) = (0.5f64.to_radians().tan(), 2000);
+    let at = |k: i32| field * (0.975 + 0.05 * (f64::from(k) + 0.5) / f64::from(n));
+    etendue(radius_m) / ((0..n).map(|k| etendue(at(k))).sum::<f64>() / f64::from(n))
 }
 
 /// Heads 2 m from a lamp of 400 cd that is 30° below the horizon, below a panel of 1000 cd/m² that fills 30° about the zenith.
@@ -197,6 +242,19 @@ fn display() -> Vec<(&'static str, usize, &'static str, f64)> {
 fn disc(beside_m: f64, below_m: f64) -> f64 {
     let (r, z, a) = (beside_m * beside_m, below_m * below_m, 0.01);
     500.0 * PI * (1.0 - (r + z - a) / ((r + z + a).powi(2) - 4.0 * a * r).sqrt())
+}
+
+/// What a blade leaves of a panel of 1000 cd/m², lx: a trapezoid, its edges in turn.
+fn half_hidden_panel() -> f64 {
+    let seen = [(-0.5f64, -0.3f64), (-0.05, -0.3), (0.25, 0.3), (-0.5, 0.3)];
+    let edges = seen.iter().zip(seen.iter().cycle().skip(1));
+    // Corners (x, y, 1): z of the cross product, its length, and the angle between them.
+    let edge = |(&(ax, ay), &(bx, by)): (&(f64, f64), &(f64, f64))| {
+        let (along, up) = ((ay - by).hypot(bx - ax), ax * by - ay * bx);
+        let length = along.hypot(up);
+        length.atan2(ax * bx + ay * by + 1.0) * up / length
+    };
+    500.0 * edges.map(edge).sum::<f64>().abs()
 }
 
 /// Sphere of angular radius 30° and 1000 cd/m² with its centre at an angle from the normal, lx: rings about the centre by midpoints.
@@ -355,6 +413,7 @@ fn what_is_left_out_is_not_done() {
         "ideal-integrating-sphere.ron",
         "laser-line.ron",
         "narrow-acceptance.ron",
+        "flat-field.ron",
         "eye-on-a-display.ron",
     ] {
         assert_eq!(read(&scene(file), false, 1024, 0).counters, Counters::default(), "{file}");

@@ -36,7 +36,13 @@ fn only_what_has_no_reading_is_told() {
         .filter(|(_, row)| row.judgement == Judgement::Told)
         .map(|(name, row)| (name, row.series, row.parameter))
         .collect();
-    assert_eq!(told, [("reflectance", "no loss", 0.0), ("line-width", "on a node", 0.0), ("line-width", "between nodes", 0.0)]);
+    let expected = [
+        ("reflectance", "no loss", 0.0),
+        ("line-width", "on a node", 0.0),
+        ("line-width", "between nodes", 0.0),
+        ("touching", "contact", 0.0),
+    ];
+    assert_eq!(told, expected);
 }
 
 /// The points of a sweep with what they are held against changed by a share.

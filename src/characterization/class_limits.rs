@@ -25,7 +25,7 @@
 use std::fmt;
 use std::sync::OnceLock;
 
-use crate::metrology::distribution::normal_probability;
+use crate::metrology::distribution::normal_cumulative;
 
 const TABLE: &str = include_str!("../../data/limits/din_5032_7.csv");
 
@@ -121,7 +121,7 @@ pub fn worst(indices: &[(&Limits, f64, f64)]) -> Option<Classified> {
 fn within(limit: f64, value: f64, standard_uncertainty: f64) -> f64 {
     let z = (limit - value) / standard_uncertainty;
     // 0/0: exactly on the limit, which belongs to the class.
-    if z.is_nan() { 1.0 } else { normal_probability(z) }
+    if z.is_nan() { 1.0 } else { normal_cumulative(z) }
 }
 
 /// All limits, in the order of the file.
@@ -174,7 +174,7 @@ mod tests {
         let (f1, f2) = (limits("f1_prime").unwrap(), limits("f2").unwrap());
         let meter = worst(&[(f1, 2.0, 0.0), (f2, 2.9, 0.1)]).unwrap();
         assert_eq!(meter.class, Some(Class::B));
-        assert!((meter.probability - normal_probability(1.0)).abs() < 1e-12);
+        assert!((meter.probability - normal_cumulative(1.0)).abs() < 1e-12);
         assert_eq!(worst(&[(f1, 20.0, 0.1), (f2, 0.0, 0.0)]).unwrap().class, None);
         assert_eq!(worst(&[]), None);
     }

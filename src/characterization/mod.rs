@@ -10,13 +10,15 @@
 //! | `class_limits` | classes L, A, B, C and how sure they are | indices |
 //! | `bench/` | readings of a sensor on a goniometer, a monochromator, an attenuator | a sensor |
 //! | `sheet/` | all of them for one sensor, each by both routes | a sensor |
+//! | `emva/` | the figures of EMVA 1288 | frames of a camera |
 //!
-//! Indices are pure functions on curves. What could not be checked against the text of the defining standards (ISO/CIE 19476, CIE S 023,
+//! Indices are pure functions on curves and frames. What could not be checked against the text of the defining standards (ISO/CIE 19476, CIE S 023,
 //! DIN 5032-7) is an input there, and each file says so.
 
 pub mod bench;
 pub mod class_limits;
 pub mod directional_mismatch;
+pub mod emva;
 mod figure;
 pub mod head_mismatch;
 pub mod linearity;

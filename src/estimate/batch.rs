@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! trial     double the job with the largest u² / (samples · cost) until k u_c ≤ 2 target · |value|
-//! reading   new numbers, points × (2 k u_c / target |value|)² rounded up to a power of two; doubled on if that was not enough
+//! reading   new numbers, points × (2 k u_c / target |value|)² rounded up to a power of two, 64 or more; doubled on if that was not enough
 //! ```
 //!
 //! A run that stops at the first small spread favours spreads that are small by luck: its intervals cover too little, and where the
@@ -21,6 +21,9 @@ use crate::metrology::{Budget, BudgetRow, Replicates};
 
 /// Points a replicate in the first round.
 const FIRST_POINTS: u32 = 16;
+/// Points a replicate of a reading, at least, of what varied in the trial: means of fewer are skewed, where a path may come close to a
+/// lamp, and 16 of them cover less than Student's distribution says.
+const LEAST_READING_POINTS: u32 = 64;
 /// Points a replicate after which a search that has found nothing ends, with the bound of what it may have missed.
 const MOST_BLIND_POINTS: u32 = 1 << 16;
 /// The trial ends at this multiple of the target.
@@ -81,6 +84,7 @@ impl Batch<'_> {
                 }
                 state.jobs[job].share_clear = share;
                 state.jobs[job].known = self.task.known(pose, job);
+                state.jobs[job].brightest = self.task.jobs[job].0.brightest(&state.receiver, stream);
                 state.counters.add(&counted);
             }
             state
@@ -236,6 +240,7 @@ impl Batch<'_> {
                     // What did not vary in the trial is read with as many points as the trial had.
                     let factor = if verdict.gain[job] > 0.0 { factor.max(1.0) } else { 1.0 };
                     let points = (f64::from(state.jobs[job].points) * factor).min(f64::from(most)) as u32;
+                    let points = if verdict.gain[job] > 0.0 { points.max(LEAST_READING_POINTS) } else { points };
                     requests.push((slot, job, points.next_power_of_two()));
                     state.jobs[job].restart();
                 }
@@ -290,7 +295,8 @@ impl Batch<'_> {
                 if ratio.is_nan() { f64::INFINITY } else { ratio }
             };
             let size = budget.combined_standard_uncertainty();
-            let hopeless = self.stop.target.is_some() && over(&fixed) >= 1.0;
+            // Where nothing was found nothing is fixed, and a share of zero says nothing.
+            let hopeless = self.stop.target.is_some() && fixed.combined_standard_uncertainty() > 0.0 && over(&fixed) >= 1.0;
             budget.rows.extend(fixed.rows);
             verdict.ratio = verdict.ratio.max(over(&budget));
             verdict.blind &= value == 0.0;

@@ -15,14 +15,17 @@ use super::job::Piece;
 use super::lanes::each_sixteen;
 use super::light::Lights;
 use super::receiver::Receiver;
+use super::sky::Lit;
 use super::{Counters, REPLICATES};
 use crate::geometry::rays::{LANES, Rays};
+use crate::geometry::shape::Side;
 use crate::geometry::world::World;
+use crate::math::DVec3;
 use crate::math::random::Stream;
 use crate::plan::choose::{Formula, formula};
 use crate::plan::{Term, Visibility};
 use crate::scene::Scene;
-use crate::sensor::Sensor;
+use crate::sensor::{Acceptance, Sensor};
 use crate::source::{Emitter, Source};
 
 /// Connections of the pilot run.
@@ -40,12 +43,25 @@ pub(super) struct SourceJob<'a> {
     pub(super) tested: bool,
     /// The most that a source with a radiance can give, per unit of it; zero for a source without extent.
     pub(super) largest: f64,
+    /// For a spot: which sides of which elements shine, the area of all, and where they are.
+    target: Option<Target>,
+}
+
+/// A source as a spot looks for it.
+struct Target {
+    lit: Lit,
+    area_m2: f64,
+    middle: DVec3,
 }
 
 impl<'a> SourceJob<'a> {
     pub(super) fn new(scene: &'a Scene, sensor: &Sensor, term: &Term, naive: bool) -> SourceJob<'a> {
         let source = term.id.source();
         let light = &scene.sources[source];
+        let target = match (&sensor.acceptance, &light.emitter) {
+            (Acceptance::Spot(_), Emitter::Area { elements }) => Some(Target::of(scene, elements)),
+            _ => None,
+        };
         SourceJob {
             source,
             light,
@@ -54,7 +70,26 @@ impl<'a> SourceJob<'a> {
             has_formula: !naive && formula(scene, sensor, light) != Formula::Unknown,
             tested: term.visibility == Visibility::Tested,
             largest: if matches!(light.emitter, Emitter::Area { .. }) { sensor.acceptance.projected_solid_angle_sr() } else { 0.0 },
+            target,
         }
+    }
+
+    /// What to look for, where the source fills the field of a spot.
+    pub(super) fn looked_for(&self, receiver: &Receiver<'_>) -> Option<&Lit> {
+        self.target.as_ref().filter(|target| receiver.is_filled_by(target.area_m2, target.middle)).map(|target| &target.lit)
+    }
+}
+
+impl Target {
+    fn of(scene: &Scene, elements: &[(usize, Side)]) -> Target {
+        let mut target = Target { lit: vec![[false; 2]; scene.elements.len()], area_m2: 0.0, middle: DVec3::ZERO };
+        for &(e, side) in elements {
+            let shape = &scene.elements[e].shape;
+            target.lit[e][usize::from(side == Side::Back)] = true;
+            target.area_m2 += shape.area_m2();
+            target.middle += shape.bounding_sphere().0 / elements.len() as f64;
+        }
+        target
     }
 }
 
@@ -70,6 +105,19 @@ pub(super) fn pilot(job: &SourceJob<'_>, world: &World, receiver: &Receiver<'_>,
     });
     let share = if all > 0.0 { clear / all } else { 1.0 };
     (share, Counters { rays: if job.tested { rays } else { 0 }, samples: u64::from(PILOT), ..Counters::default() })
+}
+
+/// The most that any of a pilot run's connections would bring if the acceptance took it.
+pub(super) fn brightest(job: &SourceJob<'_>, receiver: &Receiver<'_>, stream: Stream) -> f64 {
+    let mut brightest = 0.0_f64;
+    each_sixteen(&[stream], (0, PILOT), |points| {
+        let u = &points.u;
+        for lane in 0..points.lanes {
+            let light = job.lights.sample(receiver.point([u[2][lane], u[3][lane]]), [u[0][lane], u[1][lane]]);
+            brightest = brightest.max(light.weight * receiver.pose.normal.dot(light.to));
+        }
+    });
+    brightest
 }
 
 /// The points `first .. first + count` of every replicate; `known` is E₀, and β is zero without it.
@@ -125,7 +173,7 @@ fn each_connection(
         for lane in 0..points.lanes {
             let at = receiver.point([u[2][lane], u[3][lane]]);
             let light = job.lights.sample(at, [u[0][lane], u[1][lane]]);
-            g[lane] = if light.weight > 0.0 { light.weight * receiver.received(light.to) } else { 0.0 };
+            g[lane] = if light.weight > 0.0 { light.weight * receiver.received(at, light.to) } else { 0.0 };
             rays.active[lane] = g[lane] > 0.0;
             rays.origin.set(lane, at);
             rays.direction.set(lane, light.to);

@@ -40,6 +40,8 @@ pub(super) struct Progress {
     pub(super) share_clear: f64,
     /// The unobstructed light by its formula, where there is one.
     pub(super) known: Option<f64>,
+    /// The most that a connection to the source brings, taken as if it were accepted; zero for what is no source with an area.
+    pub(super) brightest: f64,
     /// Bright spots that paths may overlook.
     pub(super) spots: Vec<BrightSpot>,
 }
@@ -47,8 +49,13 @@ pub(super) struct Progress {
 impl Progress {
     /// Forgets all samples, but not what is known beforehand.
     pub(super) fn restart(&mut self) {
-        *self =
-            Progress { share_clear: self.share_clear, known: self.known, spots: std::mem::take(&mut self.spots), ..Progress::default() };
+        *self = Progress {
+            share_clear: self.share_clear,
+            known: self.known,
+            brightest: self.brightest,
+            spots: std::mem::take(&mut self.spots),
+            ..Progress::default()
+        };
     }
 }
 
@@ -81,9 +88,20 @@ impl Job<'_> {
     /// A first look at what is clear, with numbers of its own, so that the estimate stays unbiased.
     pub(super) fn pilot(&self, world: &World, receiver: &Receiver<'_>, stream: Stream) -> (f64, Counters) {
         match self {
-            Job::Source(job) => direct::pilot(job, world, receiver, stream),
-            Job::Sky { .. } => sky::pilot(world, receiver, stream),
+            Job::Source(job) => match job.looked_for(receiver) {
+                Some(lit) => sky::pilot(world, Some(lit), receiver, stream),
+                None => direct::pilot(job, world, receiver, stream),
+            },
+            Job::Sky { .. } => sky::pilot(world, None, receiver, stream),
             Job::Paths { .. } => (0.0, Counters::default()),
+        }
+    }
+
+    /// The most that a connection brings, whether or not the acceptance takes it, per unit of density.
+    pub(super) fn brightest(&self, receiver: &Receiver<'_>, stream: Stream) -> f64 {
+        match self {
+            Job::Source(job) if job.largest > 0.0 => direct::brightest(job, receiver, stream),
+            _ => 0.0,
         }
     }
 
@@ -97,8 +115,11 @@ impl Job<'_> {
         progress: &Progress,
     ) -> Result<Piece, EstimateError> {
         match self {
-            Job::Source(job) => Ok(direct::sample(job, world, receiver, stream, (first, count), progress.share_clear, progress.known)),
-            Job::Sky { .. } => Ok(sky::sample(world, receiver, stream, (first, count), progress.share_clear)),
+            Job::Source(job) => Ok(match job.looked_for(receiver) {
+                Some(lit) => sky::sample(world, Some(lit), receiver, stream, (first, count), progress.share_clear),
+                None => direct::sample(job, world, receiver, stream, (first, count), progress.share_clear, progress.known),
+            }),
+            Job::Sky { .. } => Ok(sky::sample(world, None, receiver, stream, (first, count), progress.share_clear)),
             Job::Paths { scene, .. } => {
                 let out = trace(scene, receiver, stream, first, count);
                 if out.endless {
@@ -169,8 +190,12 @@ impl Job<'_> {
                 let n = progress.connections as f64;
                 if progress.connections == 0 {
                     return match self {
-                        Job::Source(job) => (job.largest > 0.0)
-                            .then(|| (RULE_OF_THREE / samples * job.largest, format!("no way to the source in {samples} samples"))),
+                        // A part of a large source that fills a narrow acceptance is hit seldom and brings much: more than the acceptance
+                        // takes in all, which is the most that there can be.
+                        Job::Source(job) => (job.largest > 0.0).then(|| {
+                            let bound = (RULE_OF_THREE / samples * job.largest.max(progress.brightest)).min(job.largest);
+                            (bound, format!("no way to the source in {samples} samples"))
+                        }),
                         _ => None,
                     };
                 }

@@ -8,15 +8,19 @@
 //! |---|---|---|
 //! | point | one connection | cosθ_r / r² |
 //! | parallel light | one connection | cosθ_r |
-//! | rectangle, polygon, disc, mesh | 1/A over the area | A cosθ_r cosθ_s / r² |
+//! | rectangle, polygon, disc, triangle of a mesh | 1/A over the area | A cosθ_r cosθ_s / r² |
+//! | the same if it is near | 1/(Δφ Δs) over the rectangle around it (`near_light`) | Δφ Δs cosθ_r |
 //! | sphere from outside | 1/Ω over its cone | Ω cosθ_r |
-//! | sphere from inside | 1/A over the area | A cosθ_r cosθ_s / r² |
+//! | sphere from inside | 1/4π over all directions | 4π cosθ_r |
+//! | sphere from its own wall | 1/A over the area | A cosθ_r cosθ_s / r² |
 //!
+//! No weight grows without bound where a receiver touches a light: the spread of the samples would say nothing of what they miss.
 //! A light is never found by chance: every sample goes to one.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+use super::near_light::{self, Frame, Outline, Place};
 use crate::geometry::mesh::Mesh;
 use crate::geometry::polygon::Polygon;
 use crate::geometry::rays::NONE;
@@ -27,6 +31,9 @@ use crate::math::frame::world_from_local;
 use crate::math::sample::{sample_cone, sample_disc};
 use crate::scene::Scene;
 use crate::source::{Emitter, Source};
+
+/// Share of a sphere's radius within which a point counts as lying on its wall: where rays start, a little off it, they still do.
+const ON_THE_WALL: f64 = 1e-8;
 
 /// A part of a source that is sampled as a whole.
 #[derive(Clone, Debug)]
@@ -45,11 +52,14 @@ enum Piece {
         v: DVec3,
         normal: DVec3,
         area_m2: f64,
+        frame: Frame,
     },
     Polygon {
         element: u32,
         polygon: Polygon,
         normal: DVec3,
+        frame: Frame,
+        outline: Outline,
     },
     Disc {
         element: u32,
@@ -58,6 +68,7 @@ enum Piece {
         v: DVec3,
         normal: DVec3,
         area_m2: f64,
+        frame: Frame,
     },
     Sphere {
         element: u32,
@@ -162,9 +173,15 @@ impl Lights {
 fn piece(shape: &Shape, element: u32, side: Side) -> Piece {
     match shape {
         Shape::Rectangle(r) => {
-            Piece::Rectangle { element, centre: r.centre, u: r.half_u, v: r.half_v, normal: side.sign() * r.normal(), area_m2: r.area_m2() }
+            let normal = side.sign() * r.normal();
+            let frame = Frame::rectangle(r.centre, r.half_u, r.half_v, normal);
+            Piece::Rectangle { element, centre: r.centre, u: r.half_u, v: r.half_v, normal, area_m2: r.area_m2(), frame }
         }
-        Shape::Polygon(p) => Piece::Polygon { element, polygon: p.clone(), normal: side.sign() * p.normal() },
+        Shape::Polygon(p) => {
+            let normal = side.sign() * p.normal();
+            let (frame, outline) = Frame::around(p.corners(), normal);
+            Piece::Polygon { element, polygon: p.clone(), normal, frame, outline }
+        }
         Shape::Disc(d) => {
             let (x, y) = crate::math::frame::tangents(d.normal);
             Piece::Disc {
@@ -174,6 +191,7 @@ fn piece(shape: &Shape, element: u32, side: Side) -> Piece {
                 v: y * d.radius_m,
                 normal: side.sign() * d.normal,
                 area_m2: PI * d.radius_m * d.radius_m,
+                frame: Frame::disc(d.centre, d.radius_m, side.sign() * d.normal),
             }
         }
         Shape::Sphere(s) => Piece::Sphere { element, sphere: *s, side },
@@ -185,15 +203,24 @@ fn piece(shape: &Shape, element: u32, side: Side) -> Piece {
 fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
     let dark = Connection { to: DVec3::Z, t_end: 1.0, weight: 0.0, group: 0, element: NONE, part: NONE };
     match piece {
-        Piece::Rectangle { element, centre, u: hu, v: hv, normal, area_m2 } => {
+        Piece::Rectangle { element, centre, u: hu, v: hv, normal, area_m2, frame } => {
+            if let Some(place) = frame.sample(x, u) {
+                return from_near(place, *element, NONE);
+            }
             let to = (*centre - x) + *hu * (2.0 * u[0] - 1.0) + *hv * (2.0 * u[1] - 1.0);
             from_area(to, *normal, *area_m2, *element, NONE)
         }
-        Piece::Polygon { element, polygon, normal } => {
+        Piece::Polygon { element, polygon, normal, frame, outline } => {
+            if let Some(place) = frame.sample_polygon(outline, x, u) {
+                return from_near(place, *element, NONE);
+            }
             let to = (polygon.corners()[0] - x) + polygon.sample_by_area(u);
             from_area(to, *normal, polygon.area_m2(), *element, NONE)
         }
-        Piece::Disc { element, centre, u: hu, v: hv, normal, area_m2 } => {
+        Piece::Disc { element, centre, u: hu, v: hv, normal, area_m2, frame } => {
+            if let Some(place) = frame.sample_disc(x, u) {
+                return from_near(place, *element, NONE);
+            }
             let [a, b] = sample_disc(u);
             from_area((*centre - x) + *hu * a + *hv * b, *normal, *area_m2, *element, NONE)
         }
@@ -221,16 +248,34 @@ fn connect(piece: &Piece, x: DVec3, u: [f64; 2]) -> Connection {
                 let s = (1.0 - z * z).max(0.0).sqrt();
                 let (sin, cos) = (TAU * u[1]).sin_cos();
                 let outward = DVec3::new(s * cos, s * sin, z);
+                if distance < *radius_m * (1.0 - ON_THE_WALL) {
+                    let along = outward.dot(axis);
+                    let t = along + (along * along + (radius_m - distance) * (radius_m + distance)).sqrt();
+                    return Connection { to: t * outward, weight: 2.0 * TAU / t, element: *element, ..dark };
+                }
                 from_area(axis + *radius_m * outward, -outward, 4.0 * PI * radius_m * radius_m, *element, NONE)
             } else {
                 dark
             }
         }
         Piece::Mesh { element, mesh, side } => {
+            let (triangle, rest) = mesh.choose_by_area(u[0]);
+            if let (Some(corners), Some(normal)) = (mesh.triangle(triangle), mesh.normal(triangle))
+                && let Some(mut place) = near_light::on_triangle(&corners, side.sign() * normal, x, [rest, u[1]])
+            {
+                place.weight *= mesh.area_m2();
+                return from_near(place, *element, triangle);
+            }
             let (triangle, point, normal) = mesh.sample_by_area_with_two(u);
             from_area(point - x, side.sign() * normal, mesh.area_m2(), *element, triangle)
         }
     }
+}
+
+/// A place on a light that is near.
+#[inline(always)]
+fn from_near(place: Place, element: u32, part: u32) -> Connection {
+    Connection { to: place.to, t_end: 1.0, weight: place.weight, group: 0, element, part }
 }
 
 /// A point chosen with density 1/A: E = L A cosθ_r cosθ_s / r², with cosθ_r = n·to/r and cosθ_s = −n_s·to/r.

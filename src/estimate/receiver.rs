@@ -8,7 +8,7 @@ use crate::math::DVec3;
 use crate::math::frame::world_from_local;
 use crate::math::sample::{sample_cone, sample_cosine_cone, sample_disc};
 use crate::scene::{Pose, Scene};
-use crate::sensor::{Acceptance, Aperture, Head, Sensor};
+use crate::sensor::{Acceptance, Aperture, Head, Sensor, Spot};
 
 /// A sensor in a pose, prepared for sampling.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +21,8 @@ pub(super) struct Receiver<'a> {
     pub(super) aperture: Aperture,
     /// Where light from all round is weighed.
     head: Option<Head>,
+    /// Where the response depends on the point of the aperture.
+    spot: Option<Spot>,
     /// Sine of the angle beyond which nothing is accepted.
     sine_limit: f64,
     /// The mesh on which the aperture lies, if any: rays do not meet it where they start.
@@ -41,6 +43,7 @@ impl<'a> Receiver<'a> {
             acceptance: &sensor.acceptance,
             aperture: sensor.aperture,
             head: sensor.acceptance.head(),
+            spot: if let Acceptance::Spot(spot) = &sensor.acceptance { Some(*spot) } else { None },
             sine_limit: if limit >= 0.5 * PI { 1.0 } else { limit.sin() },
             resting_on: place.mesh,
             resting_part: place.triangle,
@@ -67,19 +70,52 @@ impl<'a> Receiver<'a> {
         }
     }
 
-    /// What light from `to` counts, times the length of `to`: `R n·to` of a plane receptor, zero below its horizon; `w |to|` of a head.
+    /// What light from `to` counts at a point of the aperture, times the length of `to`: `R n·to` of a plane receptor, zero below its horizon; `w |to|` of a head.
     #[inline(always)]
-    pub(super) fn received(&self, to: DVec3) -> f64 {
+    pub(super) fn received(&self, at: DVec3, to: DVec3) -> f64 {
+        if let Some(spot) = &self.spot {
+            let ahead = self.pose.normal.dot(to);
+            // Where the ray meets the plane of focus.
+            let focus = (at - self.at) + to * (spot.focus_m / ahead);
+            let aside = self.pose.x_axis.dot(focus).hypot(self.y_axis.dot(focus));
+            return if ahead > 0.0 { ahead * spot.response(aside) } else { 0.0 };
+        }
         match self.head {
             None => self.pose.normal.dot(to).max(0.0) * self.response(to),
             Some(head) => head.weight_times_length(DVec3::new(self.pose.x_axis.dot(to), self.y_axis.dot(to), self.pose.normal.dot(to))),
         }
     }
 
+    /// A point of the aperture, a direction to look into, and what it counts over the density of its choice, by four numbers. A spot looks at
+    /// points of its field, evenly over their area: `R π r² cos²θ/ρ²` at a distance ρ.
+    #[inline(always)]
+    pub(super) fn look(&self, u: [f64; 4]) -> (DVec3, DVec3, f64) {
+        let at = self.point([u[2], u[3]]);
+        let Some(spot) = &self.spot else {
+            let (direction, counts) = self.direction([u[0], u[1]]);
+            return (at, direction, counts);
+        };
+        let ([a, b], radius) = (sample_disc([u[0], u[1]]), spot.outer_radius_m());
+        let field = self.at + radius * (self.pose.x_axis * a + self.y_axis * b) + spot.focus_m * self.pose.normal;
+        let to = field - at;
+        let distance = to.length();
+        let (cos, r) = (spot.focus_m / distance, radius / distance);
+        (at, to / distance, spot.response(radius * a.hypot(b)) * PI * r * r * cos * cos)
+    }
+
+    /// Whether a source is larger than the field at its distance: looking into the field then finds more of its light than choosing a point of
+    /// the source does.
+    pub(super) fn is_filled_by(&self, area_m2: f64, at: DVec3) -> bool {
+        self.spot.is_some_and(|spot| {
+            let ahead = self.pose.normal.dot(at - self.at);
+            ahead > 0.0 && area_m2 > PI * spot.beam_radius_m(ahead).powi(2)
+        })
+    }
+
     /// A direction to look into, by two numbers, and what it counts over the density of its choice: cosθ/(π sin²α) within the limit of a
     /// plane receptor, 1/4π for a head.
     #[inline(always)]
-    pub(super) fn direction(&self, u: [f64; 2]) -> (DVec3, f64) {
+    fn direction(&self, u: [f64; 2]) -> (DVec3, f64) {
         match self.head {
             None => {
                 let direction = world_from_local(self.pose.normal, sample_cosine_cone(u, self.sine_limit));
@@ -87,7 +123,7 @@ impl<'a> Receiver<'a> {
             }
             Some(_) => {
                 let direction = world_from_local(self.pose.normal, sample_cone(u, 2.0));
-                (direction, self.received(direction) * 4.0 * PI)
+                (direction, self.received(self.at, direction) * 4.0 * PI)
             }
         }
     }

@@ -1,7 +1,8 @@
-//! Instruments of the same scene with other sensors, and differences between what two of them receive.
+//! Instruments of the same scene with other sensors, and differences and ratios of what two of them receive.
 //!
 //! ```text
 //! Δ = a Σ x − b Σ y       exact parts subtract; sampled ones replicate by replicate, u(Δ) from the spread of the differences
+//! ρ = b Σ y / (a Σ x)     u(ρ) = u(b Σ y − ρ a Σ x) / (a Σ x)
 //! ```
 //!
 //! Companions that stand at the same index and are sampled with the same seed take the same points, so what they have in common cancels in
@@ -15,6 +16,9 @@ use crate::metrology::{Budget, BudgetRow, Replicates};
 use crate::plan::{Plan, PlanOptions};
 use crate::scene::{Instrument, Scene};
 use crate::sensor::Sensor;
+
+/// So many u above zero a number may be divided by: the bias of a ratio is then below a percent of its distance from one.
+const WELL_ABOVE: f64 = 10.0;
 
 /// Estimates instruments of a scene with other sensors; `replaced` has the indices of the instruments and their sensors.
 pub(super) fn estimated(
@@ -87,6 +91,17 @@ pub(super) fn difference(a: Received<'_>, b: Received<'_>) -> (f64, f64) {
         budget.push(BudgetRow::rectangular("wavelengths between the nodes", (x[1] - y[1]).abs()));
     }
     (value, budget.combined_standard_uncertainty())
+}
+
+/// `b / a` with its standard uncertainty; `None` where `a` is not well above zero.
+pub(super) fn ratio(a: Received<'_>, b: Received<'_>) -> Option<(f64, f64)> {
+    let (below, u) = indication(a);
+    let ratio = indication(b).0 / below;
+    if !(below.abs() > WELL_ABOVE * u && ratio.is_finite()) {
+        return None;
+    }
+    let scaled = Received { scale: a.scale * ratio, ..a };
+    Some((ratio, difference(b, scaled).1 / below.abs()))
 }
 
 /// The indication with its standard uncertainty.

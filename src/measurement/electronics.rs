@@ -69,8 +69,9 @@ pub(super) fn displayed(
     budget.rows.extend(own.rows);
     let deviations: Vec<(Deviation, f64)> = readout.deviations_a.iter().map(|&(cause, a)| (cause, a / a_per_unit)).collect();
     for (cause, x) in deviations.iter().filter(|(cause, _)| *cause != Deviation::Saturation) {
-        let share = if analogue == 0.0 { String::new() } else { format!(" ({:+.2} %)", 100.0 * x / analogue) };
         let sign = if *x > 0.0 { "+" } else { "−" };
+        let share =
+            if analogue == 0.0 { String::new() } else { format!(" ({sign}{} %)", format_significant((100.0 * x / analogue).abs(), 2)) };
         notes.push(format!("includes {sign}{} {unit}{share} from {}", format_significant(x.abs(), 2), cause.words()));
     }
     match readout.saturation {

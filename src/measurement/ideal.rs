@@ -16,10 +16,10 @@
 //! | area averaging | the aperture by its centre; not where a flux through the area is read |
 //! | electronics | the display by the photocurrent |
 //!
-//! Differences are sampled with common points (`companion.rs`), so that they are known better than either reading. The ideal value is
-//! S minus all parts: parts and whole agree by construction. What an instrument shares with its ideal costs nothing.
+//! Steps are sampled with common points and taken as ratios (`companion.rs`), so that they are known better than either reading. The ideal
+//! value is S minus all parts: parts and whole agree by construction. What an instrument shares with its ideal costs nothing.
 
-use super::companion::{Received, difference, estimated};
+use super::companion::{Received, difference, estimated, ratio};
 use super::{Measurement, Reading};
 use crate::estimate::{EstimateError, PoseEstimate, Watch};
 use crate::metrology::EvaluationKind;
@@ -74,6 +74,8 @@ pub struct Part {
     pub value: f64,
     /// Its standard uncertainty.
     pub standard_uncertainty: f64,
+    /// Standard uncertainty of its share of the ideal reading, in which what both have in common cancels.
+    pub share_uncertainty: f64,
 }
 
 /// What an ideal instrument would indicate in the same place.
@@ -224,36 +226,66 @@ fn of_reading<'e>(
     received: &dyn Fn(usize, usize) -> Option<Received<'e>>,
 ) -> Option<IdealReading> {
     let channel = &sensor.channels[c];
-    let mut parts = Vec::new();
-    let mut add = |cause: Cause, (value, standard_uncertainty): (f64, f64)| parts.push(Part { cause, value, standard_uncertainty });
-    let count = sensor.channels.len();
-    if exchange.spectral {
-        add(Cause::Spectral, difference(received(0, c)?, received(0, count + c)?));
-    }
+    let factor = channel.temperature.map_or(1.0, |temperature| temperature.factor());
     let analogue = reading.readout.as_ref().map_or(reading.value, |readout| readout.analogue);
-    if let Some(temperature) = channel.temperature.filter(|t| t.factor() != 1.0) {
-        // The reading without it follows without another sample.
-        let share = 1.0 - 1.0 / temperature.factor();
-        add(Cause::Temperature, (analogue * share, reading.computed_uncertainty * share.abs()));
+    let analogue_uncertainty = reading.computed_uncertainty;
+    let mut walk = Walk { value: analogue / factor, uncertainty: analogue_uncertainty / factor, parts: Vec::new() };
+    let mut at = received(0, sensor.channels.len() + c);
+    if exchange.spectral {
+        walk.step(Cause::Spectral, received(0, c)?, at?);
     }
-    let mut last = received(0, count + c);
+    if factor != 1.0 {
+        let (value, u) = (analogue - analogue / factor, analogue_uncertainty * (1.0 - 1.0 / factor).abs());
+        walk.parts.push((Part { cause: Cause::Temperature, value, standard_uncertainty: u, share_uncertainty: 0.0 }, 0.0));
+    }
     if exchange.directional {
         let next = received(1, c)?;
-        add(Cause::Directional, difference(last?, next));
-        last = Some(next);
+        walk.step(Cause::Directional, at?, next);
+        at = Some(next);
     }
     if exchange.area {
-        add(Cause::Area, difference(last?, received(2, c)?));
+        walk.step(Cause::Area, at?, received(2, c)?);
     }
-    if let Some(readout) = &reading.readout {
-        add(Cause::Electronics, (reading.value - readout.analogue, readout.standard_uncertainty));
+    if let Some(readout) = reading.readout.as_ref().filter(|_| channel.ideal.is_some() || !walk.parts.is_empty()) {
+        let (value, u) = (reading.value - readout.analogue, readout.standard_uncertainty);
+        walk.parts.push((Part { cause: Cause::Electronics, value, standard_uncertainty: u, share_uncertainty: 0.0 }, u));
     }
-    if parts.is_empty() || (parts.iter().all(|p| p.cause == Cause::Electronics) && channel.ideal.is_none()) {
+    if walk.parts.is_empty() {
         return None;
     }
-    parts.sort_by_key(|part| part.cause);
-    let traced = parts.iter().filter(|p| !matches!(p.cause, Cause::Electronics | Cause::Temperature)).map(|p| p.standard_uncertainty);
-    let standard_uncertainty = traced.fold(reading.computed_uncertainty, f64::hypot);
+    walk.parts.sort_by_key(|(part, _)| part.cause);
+    let parts: Vec<Part> = walk.parts.iter().map(|(part, own)| Part { share_uncertainty: own / walk.value.abs(), ..*part }).collect();
     let difference: f64 = parts.iter().map(|part| part.value).sum();
-    Some(IdealReading { value: reading.value - difference, standard_uncertainty, parts })
+    Some(IdealReading { value: reading.value - difference, standard_uncertainty: walk.uncertainty, parts })
+}
+
+/// The way from the instrument to its ideal.
+struct Walk {
+    /// Where it is.
+    value: f64,
+    uncertainty: f64,
+    /// Parts, each with what of its uncertainty is left when it is divided by the ideal reading, in the unit of the reading.
+    parts: Vec<(Part, f64)>,
+}
+
+impl Walk {
+    /// From `a` to `b`: by their ratio where there is one, because it is the same for all samples if only the spectrum counts; else by
+    /// their difference.
+    fn step(&mut self, cause: Cause, a: Received<'_>, b: Received<'_>) {
+        let (value, own, share, next, uncertainty) = match ratio(a, b) {
+            Some((ratio, u)) => {
+                let own = self.value.abs() * u;
+                (self.value * (1.0 - ratio), own, own / ratio.abs(), self.value * ratio, self.uncertainty * ratio.abs())
+            }
+            None => {
+                let (difference, own) = difference(a, b);
+                (difference, own, own, self.value - difference, self.uncertainty)
+            }
+        };
+        let common = if self.value == 0.0 { 0.0 } else { (value / self.value).abs() * self.uncertainty };
+        let part = Part { cause, value, standard_uncertainty: own.hypot(common), share_uncertainty: 0.0 };
+        self.parts.push((part, if share.is_finite() { share } else { own }));
+        self.value = next;
+        self.uncertainty = uncertainty.hypot(own);
+    }
 }

@@ -12,7 +12,7 @@ use crate::metrology::{Budget, BudgetRow, Expanded, Replicates};
 use crate::plan::{Bound, Plan};
 use crate::quantity::Measurand;
 use crate::scene::{Instrument, Layout, Scene};
-use crate::sensor::{ResponsivityUncertainty, Sensor};
+use crate::sensor::ResponsivityUncertainty;
 
 /// Relative half-width within which double-precision arithmetic keeps a formula; the formulas are tested far below it.
 pub(super) const ARITHMETIC: f64 = 1e-12;
@@ -200,7 +200,7 @@ fn read(
     let mut notes = Vec::new();
     let computed_uncertainty = budget.combined_standard_uncertainty();
     if value == 0.0 {
-        notes.push(format!("reads zero: {}", why_zero(sensor, computed_uncertainty, estimate, left_out)));
+        notes.push(format!("reads zero: {}", why_zero(computed_uncertainty, sensor.acceptance.has_horizon(), estimate, left_out)));
     }
     if !pose.target_met && value != 0.0 {
         notes.push("the target was not met within the samples or the time allowed".to_owned());
@@ -246,13 +246,13 @@ fn read(
 }
 
 /// Why a reading is zero.
-fn why_zero(sensor: &Sensor, uncertainty: f64, estimate: &ChannelEstimate, left_out: &LeftOut) -> String {
+fn why_zero(uncertainty: f64, has_horizon: bool, estimate: &ChannelEstimate, left_out: &LeftOut) -> String {
     if uncertainty > 0.0 {
         return "no light was found; the uncertainty is the upper bound of what may have been missed".to_owned();
     }
     let mut reasons = left_out.reasons.clone();
     if estimate.exact.terms + estimate.sampled.len() > 0 {
-        let from = if sensor.acceptance.has_horizon() { " from above its horizon, in its acceptance and" } else { "" };
+        let from = if has_horizon { " from above its horizon, in its acceptance and" } else { "" };
         reasons.push(format!("in this pose nothing that is computed reaches the sensor{from} in its band"));
     } else if reasons.is_empty() {
         reasons.push("the scene has no source".to_owned());

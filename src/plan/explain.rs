@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Bound, Method, Plan, Term, TermId, Transport, Visibility};
+use super::{Bound, Method, Plan, Term, TermId, Transport};
 use crate::geometry::shape::Shape;
 use crate::metrology::rounding::format_significant;
 use crate::scene::Scene;
@@ -107,17 +107,16 @@ impl Plan {
             }
         }
         let row = |(term, sources): (Term, Vec<usize>)| {
-            let sight = match (term.id.transport, term.visibility, term.method) {
-                (Transport::Reflected, _, _) => "",
-                (_, Visibility::Clear, _) => ", nothing can block",
-                (_, Visibility::Tested, _) => ", shadow rays",
+            let method = match term.method.rule() {
+                Some(rule) => format!("{} ({rule})", term.method.words()),
+                None => term.method.words().to_owned(),
             };
-            Row {
-                verb: "kept",
-                transport: transport(&term.id),
-                sources: names(scene, &sources),
-                what: format!("{}{sight}", term.method.words()),
-            }
+            let sight = match (term.id.transport, term.visibility.rule()) {
+                (Transport::Reflected, _) => String::new(),
+                (Transport::Direct, Some(rule)) => format!(", nothing can block ({rule})"),
+                (Transport::Direct, None) => ", shadow rays".to_owned(),
+            };
+            Row { verb: "kept", transport: transport(&term.id), sources: names(scene, &sources), what: format!("{method}{sight}") }
         };
         groups.into_iter().map(row).collect()
     }

@@ -9,6 +9,7 @@
 //! or narrow it; `choose/` then picks the cheapest method that serves. After every rule the terms kept and left out must be the
 //! naive ones again; a rule that breaks this stops the run.
 
+mod acting;
 mod check;
 pub mod choose;
 mod explain;

@@ -27,8 +27,8 @@ impl Row<'_> {
         self.pairs.iter().any(|(_, i)| part(i).is_some()).then(|| {
             let ideal = self.mean(|_, i| i.value);
             let value = self.mean(|_, i| part(i).map_or(0.0, |p| p.value));
-            let expanded = 2.0 * self.mean(|_, i| part(i).map_or(0.0, |p| p.standard_uncertainty));
-            (100.0 * value / ideal, (100.0 * expanded / ideal).abs())
+            let expanded = 2.0 * self.mean(|_, i| part(i).map_or(0.0, |p| p.share_uncertainty));
+            (100.0 * value / ideal, 100.0 * expanded)
         })
     }
 }

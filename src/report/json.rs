@@ -87,6 +87,7 @@ struct PartOfIt {
     value: f64,
     u: f64,
     percent: Option<f64>,
+    u_percent: Option<f64>,
 }
 
 fn display(d: &DisplayReading) -> Display<'_> {
@@ -107,7 +108,13 @@ fn display(d: &DisplayReading) -> Display<'_> {
 
 fn ideal(i: &IdealReading) -> Ideal {
     let percent = |x: f64| finite(100.0 * x / i.value);
-    let part = |p: &Part| PartOfIt { cause: p.cause.words(), value: p.value, u: p.standard_uncertainty, percent: percent(p.value) };
+    let part = |p: &Part| PartOfIt {
+        cause: p.cause.words(),
+        value: p.value,
+        u: p.standard_uncertainty,
+        percent: percent(p.value),
+        u_percent: finite(100.0 * p.share_uncertainty),
+    };
     Ideal {
         value: i.value,
         standard_uncertainty: i.standard_uncertainty,

@@ -6,6 +6,7 @@
 //! | `Cone(half_angle_deg: 0.5)` | the same within a cone |
 //! | `NumericalAperture(0.22)` | a fibre in air: a cone of half-angle asin(NA) |
 //! | `Directional("directional.csv")` | a table (`directional_table.rs`) |
+//! | `Spot(field_deg: 1, focus_m: 1, edge: 0.05)` | a luminance meter: what its pupil, a disc, sees through a spot in the plane of focus; `edge` may be left out |
 //! | `Spherical`, `Hemispherical`, `Cylindrical`, `Semicylindrical` | a small head that sees all round; the aperture is a point |
 //!
 //! What a head reads has words of its own: `reads: Illuminance` with `Cylindrical` is the cylindrical illuminance E_v,z.
@@ -15,16 +16,17 @@ use super::decode::Value;
 use super::directional_table::read_directional;
 use super::reading::Reading;
 use crate::quantity::measurand::Measurand;
-use crate::sensor::{Acceptance, Head};
+use crate::sensor::{Acceptance, Aperture, Head, Spot};
 
-const ACCEPTANCES: [&str; 8] =
-    ["Cosine", "Cone", "NumericalAperture", "Directional", "Spherical", "Hemispherical", "Cylindrical", "Semicylindrical"];
+const ACCEPTANCES: [&str; 9] =
+    ["Cosine", "Cone", "NumericalAperture", "Directional", "Spot", "Spherical", "Hemispherical", "Cylindrical", "Semicylindrical"];
 
-/// Reads an acceptance.
-pub(super) fn read_acceptance(value: &Value, reading: &mut Reading) -> Option<Acceptance> {
+/// Reads an acceptance. `aperture` is that of its sensor, if it could be read.
+pub(super) fn read_acceptance(value: &Value, aperture: Option<Aperture>, reading: &mut Reading) -> Option<Acceptance> {
     let name = value.variant("an acceptance", &ACCEPTANCES, &mut reading.problems)?;
     let plain = match name {
         "Cone" => return read_cone(value, reading),
+        "Spot" => return read_spot(value, aperture, reading),
         "NumericalAperture" => return read_numerical_aperture(value, reading),
         "Directional" => {
             let name = value.positional(1, "Directional(\"directional.csv\")", &mut reading.problems)?.into_iter().next()?;
@@ -63,6 +65,34 @@ fn read_numerical_aperture(value: &Value, reading: &mut Reading) -> Option<Accep
         return None;
     }
     Some(Acceptance::Cone { half_angle_rad: na.asin() })
+}
+
+fn read_spot(value: &Value, aperture: Option<Aperture>, reading: &mut Reading) -> Option<Acceptance> {
+    let problems = &mut reading.problems;
+    let fields = value.fields("`Spot`", &["field_deg", "focus_m", "edge"], problems)?;
+    let field = fields.require("field_deg", "1", problems);
+    let field_deg =
+        field.and_then(|v| v.number_in("the measured field", "above 0° to 90°, the whole angle", |x| x > 0.0 && x <= 90.0, problems));
+    let focus_m = fields.require("focus_m", "1", problems).and_then(|v| v.length_m("`focus_m`", 1.0, problems));
+    let edge = match fields.get("edge") {
+        Some(edge) => edge.number_in("the edge", "0 to 1, a share of the field's radius", |x| (0.0..=1.0).contains(&x), problems),
+        None => Some(0.0),
+    };
+    let pupil_radius_m = match aperture {
+        Some(Aperture::Disc { radius_m }) => Some(radius_m),
+        Some(_) => {
+            value.problem_at(
+                &value.name_span(),
+                problems,
+                "a spot is seen through a round entrance pupil",
+                "give the sensor `aperture: Disc(radius_mm: 10)`, the pupil of the meter",
+            );
+            None
+        }
+        None => None,
+    };
+    let spot = Spot { half_angle_rad: 0.5 * field_deg?.to_radians(), focus_m: focus_m?, edge: edge?, pupil_radius_m: pupil_radius_m? };
+    Some(Acceptance::Spot(spot))
 }
 
 /// Name and symbol of what a channel reads at a head: "cylindrical illuminance", E_v,z. A signal stays a signal.

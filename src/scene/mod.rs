@@ -14,6 +14,7 @@
 //! | `spectrum_argument` | one spectrum or factor given as text |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
+//! | `pixel_reader` | camera pixels |
 //! | `responsivity_reader`, `readout_reader` | their curves with units and uncertainties, their electronics |
 //! | `reader` | the scene as a whole |
 //! | `checks` | what only the scene as a whole can show |
@@ -34,6 +35,7 @@ pub mod mesh_file;
 mod mesh_reader;
 mod object_reader;
 mod observer_reader;
+mod pixel_reader;
 mod placement;
 mod reader;
 mod reading;
@@ -54,6 +56,7 @@ pub use diagnostic::{Diagnostic, Diagnostics};
 pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};
 pub use instrument_reader::MOST_POSES;
+pub use pixel_reader::pixel_from_file;
 pub use reader::{read_scene, scene_from_text};
 pub use sensor_reader::sensor_from_file;
 pub use spectrum_argument::{GivenFactor, GivenSpectrum, factor_from_text, spectrum_from_text};

@@ -90,7 +90,7 @@ fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
     let title = fields.get("title").and_then(|title| title.text(problems)).unwrap_or(name).to_string();
     let aperture_value = fields.require("aperture", "Point", problems);
     let aperture = aperture_value.as_ref().and_then(|v| read_aperture(v, reading));
-    let acceptance = fields.require("acceptance", "Cosine", &mut reading.problems).and_then(|v| read_acceptance(&v, reading));
+    let acceptance = fields.require("acceptance", "Cosine", &mut reading.problems).and_then(|v| read_acceptance(&v, aperture, reading));
     let head = acceptance.as_ref().and_then(Acceptance::head);
     if let (Some(head), Some(value)) = (head, aperture_value.filter(|_| aperture.is_some_and(|a| a != Aperture::Point))) {
         value.problem(

@@ -8,13 +8,14 @@
 //! | cosine hemisphere | `Cosine` | 1 up to θ = 90° |
 //! | cone | `Cone(half_angle_deg: 0.5)` | 1 up to the half-angle, 0 beyond |
 //! | table | `Directional("directional.csv")` | piecewise linear in θ and φ, 1 at θ = 0 |
+//! | spot | `Spot(field_deg: 1, focus_m: 1)` | 1 where a ray meets the field in the plane of focus, `spot.rs` |
 //! | small heads at a point | `Spherical`, `Hemispherical`, `Cylindrical`, `Semicylindrical` | none: a weight w(ω) over all directions, `head.rs` |
 //!
 //! A fibre, `NumericalAperture(0.22)`, is a cone of half-angle asin(NA) in air. θ is counted from the sensor's normal, φ from its x axis towards its y axis.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::Head;
+use super::{Head, Spot};
 use crate::math::DVec3;
 
 /// The relative directional response of a sensor.
@@ -29,6 +30,8 @@ pub enum Acceptance {
     },
     /// A table.
     Directional(DirectionalResponse),
+    /// What a round pupil sees through a spot in its plane of focus.
+    Spot(Spot),
     /// A small sphere: every direction alike.
     Spherical,
     /// A small hemisphere, its pole along the normal.
@@ -118,7 +121,7 @@ impl Acceptance {
     #[must_use]
     pub fn head(&self) -> Option<Head> {
         match self {
-            Acceptance::Cosine | Acceptance::Cone { .. } | Acceptance::Directional(_) => None,
+            Acceptance::Cosine | Acceptance::Cone { .. } | Acceptance::Directional(_) | Acceptance::Spot(_) => None,
             Acceptance::Spherical => Some(Head::Spherical),
             Acceptance::Hemispherical => Some(Head::Hemispherical),
             Acceptance::Cylindrical => Some(Head::Cylindrical),
@@ -144,7 +147,7 @@ impl Acceptance {
         if z > 0.0 { self.at(z, x.hypot(y), y.atan2(x)) * z / length } else { 0.0 }
     }
 
-    /// R in the direction of (cos θ, φ); zero below the horizon. A head has no R and no horizon: this is its weight w.
+    /// R in the direction of (cos θ, φ); zero below the horizon. A spot answers for the centre of its pupil. A head has no R and no horizon: this is its weight w.
     #[must_use]
     pub fn at(&self, cos_theta: f64, sin_theta: f64, phi_rad: f64) -> f64 {
         if let Some(head) = self.head() {
@@ -157,6 +160,7 @@ impl Acceptance {
         match self {
             Acceptance::Cone { half_angle_rad } => f64::from(sin_theta.atan2(cos_theta) <= *half_angle_rad),
             Acceptance::Directional(table) => table.at(sin_theta.atan2(cos_theta), phi_rad),
+            Acceptance::Spot(spot) => spot.response(spot.focus_m * sin_theta / cos_theta),
             _ => 1.0,
         }
     }
@@ -168,6 +172,7 @@ impl Acceptance {
             Acceptance::Cosine => FRAC_PI_2,
             Acceptance::Cone { half_angle_rad } => *half_angle_rad,
             Acceptance::Directional(table) => table.theta_rad[table.theta_rad.len() - 1].min(FRAC_PI_2),
+            Acceptance::Spot(spot) => spot.limit_rad(),
             Acceptance::Spherical | Acceptance::Hemispherical | Acceptance::Cylindrical | Acceptance::Semicylindrical => PI,
         }
     }
@@ -180,6 +185,8 @@ impl Acceptance {
             Acceptance::Cosine | Acceptance::Hemispherical | Acceptance::Cylindrical | Acceptance::Semicylindrical => PI,
             Acceptance::Cone { half_angle_rad } => PI * half_angle_rad.sin().powi(2),
             Acceptance::Directional(table) => table.projected_solid_angle_sr(),
+            // The mean over its pupil.
+            Acceptance::Spot(spot) => spot.projected_solid_angle_sr(),
         }
     }
 }

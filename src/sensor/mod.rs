@@ -8,7 +8,9 @@
 //! |---|---|---|
 //! | aperture | `aperture.rs` | where light enters: `A` |
 //! | acceptance | `acceptance.rs` | from which directions, and how well: `R(ω)` |
+//! | pixel | `pixel/`, `noise/` | charge, gain, noise and digital numbers of a camera pixel |
 //! | head | `head.rs` | the weight `w(ω)` of receptors that see all round |
+//! | spot | `spot.rs` | the field of a luminance meter: R depends on the point of the pupil as well |
 //! | channel | `channel.rs` | how well each wavelength counts, `s(λ)`, and what is read off |
 //! | readout | `photodiode.rs` | from a photocurrent to what is displayed: noise, range, steps |
 
@@ -16,13 +18,19 @@ pub mod acceptance;
 pub mod aperture;
 pub mod channel;
 pub mod head;
+pub mod noise;
 pub mod photodiode;
+pub mod pixel;
+pub mod spot;
 
 pub use acceptance::{Acceptance, DirectionalResponse};
 pub use aperture::Aperture;
 pub use channel::{Channel, ResponsivityKind, ResponsivityUncertainty, TemperatureCoefficient, Weighting};
 pub use head::{Head, HeadWeights};
+pub use noise::Exposure;
 pub use photodiode::Photodiode;
+pub use pixel::{LinearModel, Pixel};
+pub use spot::Spot;
 
 /// A sensor, without a place in a scene.
 #[derive(Clone, Debug)]

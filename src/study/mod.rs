@@ -2,13 +2,17 @@
 //!
 //! | module | what it asks |
 //! |---|---|
+//! | [`coverage`] | how often the interval of a sampled reading covers the truth |
 //! | [`converge`] | true error and claimed uncertainty against run time |
+//! | [`savings`] | what each rule of the plan saves |
 //! | [`stability`] | where readings of stiff and extreme scenes begin to fail |
 //! | [`verify`] | does every reference case come out, on this machine |
 //!
 //! A study measures like anybody else and looks only at readings; the clocks are lent by the shell.
 
 pub mod converge;
+pub mod coverage;
+pub mod savings;
 pub mod stability;
 pub mod verify;
 

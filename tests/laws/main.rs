@@ -13,6 +13,7 @@
 //! | order of the items of a scene | 1e-9 | 4 u |
 //! | spectra: a line is a line, nodes do not matter, σT⁴ | 1e-9 | – |
 //! | heads that see all round: totals, mean over azimuth, sums | 1e-9 | 4 u |
+//! | luminance meters: a filled field reads L, étendues of discs | 1e-12 | 4 u |
 //! | methods: formulas and samples agree | – | 4 u |
 
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
@@ -29,5 +30,6 @@ mod order;
 mod reciprocity;
 mod scale;
 mod spectra;
+mod spot;
 mod superposition;
 mod white_furnace;

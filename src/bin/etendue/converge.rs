@@ -81,17 +81,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut plans = vec![(if plan.naive { "naive" } else { "planned" }, &plan)];
     plans.extend(naive.as_ref().map(|plan| ("naive", plan)));
     let reference = arguments.reference.as_deref().map(|given| reference(given, &scene)).transpose()?;
-    let writable = |path: &Path| match path.parent().filter(|p| !p.as_os_str().is_empty()) {
-        _ if path.is_dir() => Err(Failure::Input(format!("error: cannot write `{}`: it is a folder", path.display()))),
-        Some(folder) if !folder.is_dir() => {
-            Err(Failure::Input(format!("error: cannot write `{}`: there is no folder `{}`", path.display(), folder.display())))
-        }
-        _ => Ok(()),
-    };
     // What cannot be written is told before the time is spent.
-    arguments.out.as_deref().map(writable).transpose()?;
+    arguments.out.as_deref().map(output::check_place).transpose()?;
     #[cfg(feature = "plot")]
-    arguments.picture.check(writable)?;
+    arguments.picture.check(output::check_place)?;
 
     let options =
         ConvergeOptions { seeds: arguments.seeds, seed: arguments.seed, budget_seconds: arguments.budget, most_samples: arguments.up_to };

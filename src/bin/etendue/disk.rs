@@ -117,6 +117,16 @@ pub(crate) fn shelf(name: &str) -> Option<Vec<(String, String)>> {
     Some(disk.neighbours(holder.join(name).join("any").to_str()?).into_iter().filter_map(text_of).collect())
 }
 
+/// The files of the nearest folder of this name, here or above, that end so, as paths that can be opened; `None` if there is no folder.
+pub(crate) fn names_on_shelf(name: &str, extension: &str) -> Option<Vec<String>> {
+    let here = std::env::current_dir().ok()?;
+    let holder = here.ancestors().find(|folder| folder.join(name).is_dir())?;
+    let folder = if holder == here { PathBuf::from(name) } else { holder.join(name) };
+    let files = names_beside(folder.join("any").to_str()?).into_iter().map(|file| folder.join(file));
+    let wanted = files.filter(|file| file.extension().is_some_and(|e| e == extension));
+    Some(wanted.filter_map(|file| file.to_str().map(str::to_owned)).collect())
+}
+
 /// The root of a scene as [`read_scene`] has it: the parent of the innermost folder `scenes` on its way, else its own folder.
 fn root_of(scene: &str) -> PathBuf {
     let mut path = PathBuf::new();

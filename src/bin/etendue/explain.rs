@@ -29,9 +29,12 @@ pub(crate) struct Options {
 }
 
 impl Options {
+    pub(crate) fn options(&self) -> PlanOptions {
+        PlanOptions { naive: self.naive, without: self.without.clone() }
+    }
+
     pub(crate) fn plan(&self, scene: &Scene) -> Result<Plan, Failure> {
-        let options = PlanOptions { naive: self.naive, without: self.without.clone() };
-        Plan::new(scene, &options).map_err(|e| match e {
+        Plan::new(scene, &self.options()).map_err(|e| match e {
             etendue::plan::PlanError::UnknownRule { .. } => Failure::Input(format!("error: {e}")),
             etendue::plan::PlanError::NotAPartition { .. } => Failure::Run(format!("error: {e}")),
         })

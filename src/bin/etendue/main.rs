@@ -13,6 +13,7 @@
 mod check;
 mod checkpoint;
 mod converge;
+mod coverage;
 mod datasheet;
 mod disk;
 mod equation;
@@ -21,10 +22,13 @@ mod list;
 mod measure;
 mod merge;
 mod output;
+#[cfg(feature = "image")]
+mod photon_transfer;
 #[cfg(feature = "plot")]
 mod plot;
 mod processor_time;
 mod repeat;
+mod rules;
 mod spectrum;
 mod stability;
 mod verify;
@@ -54,6 +58,8 @@ enum Command {
     Equation(equation::Arguments),
     /// True error and claimed uncertainty against run time.
     Converge(converge::Arguments),
+    /// How often the 95 % interval of each sampled reading covers the truth, over many seeds.
+    Coverage(coverage::Arguments),
     /// The curves of the library and the sensor files at hand, by name.
     List(list::Arguments),
     /// Read every instrument of a scene.
@@ -62,9 +68,14 @@ enum Command {
     Merge(merge::Arguments),
     /// Measure again what a file of readings says, and tell whether the bits agree.
     Repeat(repeat::Arguments),
+    /// Take frames of a camera pixel in a flat field, and measure the figures of EMVA 1288 from them.
+    #[cfg(feature = "image")]
+    PhotonTransfer(photon_transfer::Arguments),
     /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
     #[cfg(feature = "plot")]
     Plot(plot::Arguments),
+    /// What each rule of the plan saves, over the scenes at hand.
+    Rules(rules::Arguments),
     /// Every quantity of one spectrum.
     Spectrum(spectrum::Arguments),
     /// Compute every closed-form and reference case on this machine.
@@ -88,12 +99,16 @@ fn main() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Equation(arguments) => equation::run(&arguments),
         Command::Converge(arguments) => converge::run(&arguments),
+        Command::Coverage(arguments) => coverage::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Repeat(arguments) => repeat::run(&arguments),
+        #[cfg(feature = "image")]
+        Command::PhotonTransfer(arguments) => photon_transfer::run(&arguments),
         #[cfg(feature = "plot")]
         Command::Plot(arguments) => plot::run(&arguments),
+        Command::Rules(arguments) => rules::run(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),

@@ -56,7 +56,7 @@ pub(crate) struct Arguments {
     root: Option<String>,
 }
 
-fn share(given: &str) -> Result<f64, String> {
+pub(crate) fn share(given: &str) -> Result<f64, String> {
     let (number, scale) = match given.trim().strip_suffix('%') {
         Some(percent) => (percent, 0.01),
         None => (given.trim(), 1.0),

@@ -84,6 +84,17 @@ fn prepared(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, Fail
     }
 }
 
+/// Whether a file can be put there: told before the time of a study is spent.
+pub(crate) fn check_place(path: &Path) -> Result<(), Failure> {
+    match path.parent().filter(|p| !p.as_os_str().is_empty()) {
+        _ if path.is_dir() => Err(Failure::Input(format!("error: cannot write `{}`: it is a folder", path.display()))),
+        Some(folder) if !folder.is_dir() => {
+            Err(Failure::Input(format!("error: cannot write `{}`: there is no folder `{}`", path.display(), folder.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Puts a file where `--out` or `--plot` says.
 pub(crate) fn save_at(target: &Path, written: &[u8]) -> Result<(), Failure> {
     disk::save(target, written).map_err(|e| unwritable(target, &e, "--out takes a place that can be written"))

@@ -40,7 +40,7 @@ pub fn coaxial_discs(radius1_m: f64, radius2_m: f64, distance_m: f64) -> f64 {
 /// Etendue, m² sr, of two polygons that see each other without obstruction and lie each on one side of the other's plane. `None` if `rel_tol` cannot be met or
 /// the input is degenerate.
 ///
-/// Common edges and narrow gaps are allowed. The winding of the polygons does not matter.
+/// Common edges and narrow gaps are allowed; a strip along such an edge may have a tolerance of 1e-7 instead, and its error says so. The winding of the polygons does not matter.
 pub fn polygons(first: &[DVec3], second: &[DVec3], rel_tol: f64) -> Option<Bounded> {
     if first.len() < 3 || second.len() < 3 || !first.iter().chain(second).all(|v| v.is_finite()) {
         return None;
@@ -51,9 +51,26 @@ pub fn polygons(first: &[DVec3], second: &[DVec3], rel_tol: f64) -> Option<Bound
     let scale = power_of_two_scale(size)?;
     let [a, b] = [first, second].map(|vertices| vertices.iter().map(|&v| (v - origin) * scale).collect::<Vec<_>>());
     let contour = double_contour(&a, &b);
-    let result = if contour.error <= 0.5 * rel_tol * contour.value { contour } else { area_average(&a, &b, rel_tol)? };
+    let enough = if nearest(&a, &b).min(nearest(&b, &a)) < NEARLY_TOUCHING { rel_tol.max(TOLERANCE_OF_STRIPS) } else { rel_tol };
+    let result = if contour.error <= 0.5 * enough * contour.value { contour } else { area_average(&a, &b, rel_tol)? };
     let back = |v: f64| v / scale / scale;
     Some(Bounded { value: back(result.value), error: back(result.error) })
+}
+
+/// Distance, as a share of the size of both surfaces together, below which an average over the area does not converge.
+const NEARLY_TOUCHING: f64 = 0.01;
+/// The contour integral of a strip along an edge cancels to its width: what is left is good enough there.
+const TOLERANCE_OF_STRIPS: f64 = 1e-7;
+
+/// Smallest distance of the corners of one polygon from the edges of another.
+fn nearest(corners: &[DVec3], outline: &[DVec3]) -> f64 {
+    let to_edge = |p: DVec3, i: usize| {
+        let (from, to) = (outline[i], outline[(i + 1) % outline.len()]);
+        let side = to - from;
+        let along = (side.dot(p - from) / side.length_squared()).clamp(0.0, 1.0);
+        (p - from - side * along).length()
+    };
+    corners.iter().flat_map(|&p| (0..outline.len()).map(move |i| to_edge(p, i))).fold(f64::INFINITY, f64::min)
 }
 
 /// `½ |∮∮ ln(r/r₀) ds₁·ds₂|`.

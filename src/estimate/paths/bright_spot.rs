@@ -1,18 +1,20 @@
 //! Bright spots that few paths can find: surfaces right beside a lamp.
 //!
 //! ```text
-//! share of the paths that find it ≈ 9 d²/r²      what it adds ≤ 2 ρ I / (r² (1 − ρ))
+//! share of the paths that find it ≈ 9 d²/r², of n patches in a line 2 n d²/r²      what it adds ≤ 2 ρ I / (r² (1 − ρ))
 //! ```
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | d | distance of the lamp from the surface, or its size if that is larger, m |
+//! | d | distance of the lamp from the surface, or its size if that is larger, m; a strip is as large as it is wide |
 //! | r | distance of the lamp from the receiver, m |
 //! | I | intensity per unit of density: 1 for a point, the projected area for a source with a radiance |
 //!
 //! Half the flux of a lamp that is close to a surface falls on a patch about three times as wide as the lamp is far from it. A sensor sees
-//! the patch as a small source, but directions that do not know of it hit it by chance only: until enough of them have, their
+//! the patch, of a strip a bright line, as a small source, but directions that do not know of it hit it by chance only: until enough of them have, their
 //! spread says nothing of it, and the bound has to.
+
+use std::f64::consts::PI;
 
 use super::prepare::PathScene;
 use crate::geometry::shape::{Shape, Side};
@@ -51,6 +53,34 @@ pub(super) struct Beside {
     reach_m: f64,
     intensity: f64,
     reflectance: f64,
+    /// Patches like this one that the lamp as a whole makes: it is found by whoever finds any of them.
+    patches: f64,
+}
+
+/// Most parts into which a strip is divided.
+const MOST_PARTS: usize = 64;
+
+/// A flat lamp as parts along its greatest length: their centres, their size, and how many pieces as long as wide it has.
+fn parts(shape: &Shape) -> (Vec<DVec3>, f64, f64) {
+    let (centre, radius) = shape.bounding_sphere();
+    let long = 2.0 * radius;
+    let width = shape.area_m2() / long;
+    let pieces = (0.5 * long / width).ceil().max(1.0);
+    let corners = shape.corners().unwrap_or_default();
+    if pieces < 2.0 || corners.is_empty() {
+        return (vec![centre], radius, 1.0);
+    }
+    let pairs = corners.iter().flat_map(|&a| corners.iter().map(move |&b| (a, b)));
+    let (from, to) =
+        pairs.fold(
+            (centre, centre),
+            |best, pair| {
+                if (pair.1 - pair.0).length_squared() > (best.1 - best.0).length_squared() { pair } else { best }
+            },
+        );
+    let count = (pieces as usize).min(MOST_PARTS);
+    let places = (0..count).map(|i| from + (to - from) * ((i as f64 + 0.5) / count as f64)).collect();
+    (places, radius.min(0.5 * width.hypot(long / pieces)), pieces)
 }
 
 impl Beside {
@@ -65,28 +95,38 @@ impl Beside {
         };
         match &source.emitter {
             Emitter::Point { at } => nearest(None, *at, &|_| true)
-                .map(|(reach_m, reflectance)| Beside { group, at: *at, reach_m, intensity: 1.0, reflectance })
+                .map(|(reach_m, reflectance)| Beside { group, at: *at, reach_m, intensity: 1.0, reflectance, patches: 1.0 })
                 .into_iter()
                 .collect(),
             Emitter::Area { elements } => elements
                 .iter()
-                .filter_map(|&(e, side)| {
+                .flat_map(|&(e, side)| {
                     let shape = &scene.elements[e].shape;
-                    let (at, size_m) = shape.bounding_sphere();
-                    let (found, intensity) = match shape {
-                        Shape::Sphere(s) if side == Side::Front => {
-                            let found = nearest(Some(e), at, &|_| true).map(|(d, reflectance)| (d - s.radius_m, reflectance));
-                            (found, std::f64::consts::PI * s.radius_m * s.radius_m)
-                        }
-                        Shape::Rectangle(_) | Shape::Disc(_) | Shape::Polygon(_) => {
-                            let (on, normal) = shape.plane()?;
+                    match (shape, shape.plane()) {
+                        (Shape::Sphere(s), _) if side == Side::Front => nearest(Some(e), s.centre, &|_| true)
+                            .map(|(d, reflectance)| Beside {
+                                group,
+                                at: s.centre,
+                                reach_m: (d - s.radius_m).max(s.radius_m),
+                                intensity: PI * s.radius_m * s.radius_m,
+                                reflectance,
+                                patches: 1.0,
+                            })
+                            .into_iter()
+                            .collect::<Vec<_>>(),
+                        (Shape::Rectangle(_) | Shape::Disc(_) | Shape::Polygon(_), Some((on, normal))) => {
                             let ahead = |other: &Shape| other.extent_along(on, side.sign() * normal).1 > 0.0;
-                            (nearest(Some(e), at, &ahead), shape.area_m2())
+                            let (places, size_m, patches) = parts(shape);
+                            let intensity = shape.area_m2() / places.len() as f64;
+                            let found = places.into_iter().filter_map(|at| {
+                                let (d, reflectance) = nearest(Some(e), at, &ahead)?;
+                                Some(Beside { group, at, reach_m: d.max(size_m), intensity, reflectance, patches })
+                            });
+                            found.collect()
                         }
                         // From inside a sphere every point is lit alike, and a mesh does not tell its distance.
-                        Shape::Sphere(_) | Shape::Mesh(_) => return None,
-                    };
-                    found.map(|(d, reflectance)| Beside { group, at, reach_m: d.max(size_m), intensity, reflectance })
+                        _ => Vec::new(),
+                    }
                 })
                 .collect(),
             Emitter::Directional { .. } | Emitter::Environment => Vec::new(),
@@ -103,7 +143,7 @@ impl PathScene<'_> {
             let near = lamp.reach_m * lamp.reach_m / r2;
             (near < CLOSE * CLOSE).then(|| BrightSpot {
                 group: lamp.group,
-                share: 9.0 * near,
+                share: (near * if lamp.patches > 1.0 { 2.0 * lamp.patches } else { 9.0 }).min(1.0),
                 bound: 2.0 * lamp.reflectance * lamp.intensity * gain / r2,
             })
         });

@@ -72,8 +72,8 @@ pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>,
                 continue;
             }
             if block.vertex[lane] == 0 {
-                block.point.set(lane, receiver.point([u[2][lane], u[3][lane]]));
-                let (direction, weight) = receiver.direction([u[0][lane], u[1][lane]]);
+                let (point, direction, weight) = receiver.look([u[0][lane], u[1][lane], u[2][lane], u[3][lane]]);
+                block.point.set(lane, point);
                 rays.direction.set(lane, direction);
                 block.weight[lane] = weight;
                 block.alive[lane] = block.weight[lane] > 0.0;

@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | R cosθ at the sensor | cosθ/(π sin²α) within the acceptance | W = R π sin²α |
 //! | w at a head that sees all round | 1/4π | W = 4π w |
+//! | R cosθ at a spot in a plane of focus, at a distance ρ | even over its area | W = R π r² cos²θ/ρ² |
 //! | (ρ/π) cosθ at a surface | cosθ/π | ρ |
 //! | (ρ/π) at the end of a path | a connection to a light | ρ/π times its irradiance |
 //! | survival | p, after the third reflection | 1/p |

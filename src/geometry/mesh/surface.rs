@@ -22,12 +22,19 @@ impl Mesh {
     /// choose this triangle, uniform again, serves as the next.
     #[must_use]
     pub fn sample_by_area_with_two(&self, u: [f64; 2]) -> (u32, DVec3, DVec3) {
+        let (_, rest) = self.choose_by_area(u[0]);
+        self.sample_by_area([u[0], rest, u[1]])
+    }
+
+    /// The triangle that a number in 0..1 chooses by area, and the number's place within the stretch of those that choose it.
+    #[must_use]
+    pub fn choose_by_area(&self, u: f64) -> (u32, f64) {
         let sums = &self.cumulative_area;
         let last = sums.len() - 1;
-        let wanted = u[0] * sums[last];
+        let wanted = u * sums[last];
         let triangle = sums.partition_point(|&sum| sum <= wanted).min(last);
         let before = if triangle == 0 { 0.0 } else { sums[triangle - 1] };
         let rest = ((wanted - before) / (sums[triangle] - before)).clamp(0.0, 1.0);
-        self.sample_by_area([u[0], if rest.is_finite() { rest } else { 0.5 }, u[1]])
+        (triangle as u32, if rest.is_finite() { rest } else { 0.5 })
     }
 }

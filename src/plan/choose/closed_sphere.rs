@@ -19,7 +19,7 @@ use crate::scene::Scene;
 use crate::sensor::{Acceptance, Aperture};
 use crate::source::{Emitter, Source};
 
-pub(super) const CHOICE: Choice =
+pub(in crate::plan) const CHOICE: Choice =
     Choice { name: "closed_sphere", sentence: "all reflections of a closed uniform sphere have a sum", apply };
 
 /// Lengths that are the same to this share: to the rounding of the coordinates that were written down.

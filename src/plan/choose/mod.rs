@@ -1,7 +1,7 @@
 //! How the terms that are left are computed: the cheapest method that serves, one choice a file.
 
-mod closed_form;
-mod closed_sphere;
+pub(super) mod closed_form;
+pub(super) mod closed_sphere;
 
 use super::Plan;
 use crate::scene::Scene;

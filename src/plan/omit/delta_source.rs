@@ -6,7 +6,8 @@ use crate::scene::Scene;
 use crate::sensor::Aperture;
 use crate::source::Emitter;
 
-pub(super) const RULE: Rule = Rule { name: "delta_source", sentence: "a source without extent needs one connection from a point", apply };
+pub(in crate::plan) const RULE: Rule =
+    Rule { name: "delta_source", sentence: "a source without extent needs one connection from a point", apply };
 
 fn apply(scene: &Scene, plan: &mut Plan) {
     let mut counts = vec![0usize; scene.instruments.len()];

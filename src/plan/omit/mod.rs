@@ -1,12 +1,11 @@
 //! What a scene does not need: one rule a file, each a sentence, a function and a bound.
 
 mod behind_horizon;
-mod delta_source;
+pub(super) mod delta_source;
 mod emits_elsewhere;
 mod no_common_wavelength;
 mod no_reflector_in_view;
-mod nothing_blocks;
-mod nothing_reflects;
+pub(super) mod nothing_blocks;
 mod outside_acceptance;
 mod weak_reflections;
 
@@ -28,7 +27,6 @@ pub struct Rule {
 /// weak reflections last, since it needs the direct terms that it is compared with.
 pub const RULES: &[Rule] = &[
     no_common_wavelength::RULE,
-    nothing_reflects::RULE,
     behind_horizon::RULE,
     emits_elsewhere::RULE,
     outside_acceptance::RULE,

@@ -1,5 +1,5 @@
 //! Every surface that reflects lies below the instrument's horizon or outside its acceptance, in each of its poses: whatever
-//! reflects, the instrument cannot see it.
+//! reflects, the instrument cannot see it. Where nothing reflects at all the same proof has nothing to look at.
 
 use super::Rule;
 use crate::plan::sight;
@@ -30,8 +30,9 @@ fn apply(scene: &Scene, plan: &mut Plan) {
             })
         })
         .collect();
+    let reason = if reflecting.is_empty() { "no surface of the scene reflects" } else { RULE.sentence };
     plan.omit(RULE.name, |term| {
         let unseen = term.id.transport == Transport::Reflected && blind[term.id.instrument()];
-        unseen.then_some((RULE.sentence.into(), Bound::Zero))
+        unseen.then_some((reason.into(), Bound::Zero))
     });
 }

@@ -7,8 +7,10 @@ use super::Rule;
 use crate::plan::sight::Shafts;
 use crate::plan::{Narrowing, Plan, Transport, Visibility};
 use crate::scene::Scene;
+use crate::sensor::Acceptance;
+use crate::source::Emitter;
 
-pub(super) const RULE: Rule = Rule { name: "nothing_blocks", sentence: "nothing can stand between source and aperture", apply };
+pub(in crate::plan) const RULE: Rule = Rule { name: "nothing_blocks", sentence: "nothing can stand between source and aperture", apply };
 
 fn apply(scene: &Scene, plan: &mut Plan) {
     let shafts: Vec<Shafts> = scene.instruments.iter().map(|i| Shafts::new(scene, i)).collect();
@@ -18,6 +20,14 @@ fn apply(scene: &Scene, plan: &mut Plan) {
         let (i, s) = (term.id.instrument(), term.id.source());
         let clear = match last {
             Some((li, ls, answer)) if (li, ls) == (i, s) => answer,
+            // A spot looks for a source by rays, whatever is in their way.
+            _ if matches!(
+                (&scene.instruments[i].sensor.acceptance, &scene.sources[s].emitter),
+                (Acceptance::Spot(_), Emitter::Area { .. })
+            ) =>
+            {
+                false
+            }
             _ => shafts[i].clear(scene, &scene.sources[s]),
         };
         last = Some((i, s, clear));

@@ -166,8 +166,15 @@ fn write_curve(plan: &str, curve: &ErrorCurve, out: &mut String) -> std::fmt::Re
 
 /// What the first plan saves against the others.
 fn write_gains(report: &ConvergenceReport, out: &mut String) -> std::fmt::Result {
-    let Some(first) = report.study.plans.first().filter(|_| !report.study.gains.is_empty()) else { return Ok(()) };
+    let Some((first, others)) = report.study.plans.split_first().filter(|(_, others)| !others.is_empty()) else { return Ok(()) };
     writeln!(out)?;
+    for other in others.iter().filter(|other| !report.study.gains.iter().any(|gain| gain.other == other.name)) {
+        writeln!(
+            out,
+            "  {} over {}: not known, for there is no error that both have reached; give more time (--budget)",
+            other.name, first.name
+        )?;
+    }
     for gain in &report.study.gains {
         let at_most = if gain.measured { "" } else { " (one of them in less than the lowest rung takes)" };
         writeln!(

@@ -4,10 +4,14 @@ use crate::scene::{Diagnostics, Scene, scene_from_text};
 
 /// A scene with a meter at (0.3, 0, 0) that looks along z, and what else is given.
 fn scene(surfaces: &str, objects: &str, sources: &str) -> Result<Scene, Diagnostics> {
-    let meter = r#"Sensor(aperture: Point, acceptance: Cosine, channels: [(name: "E", responsivity: 1, reads: Irradiance)])"#;
+    scene_with("Point", surfaces, objects, sources)
+}
+
+fn scene_with(aperture: &str, surfaces: &str, objects: &str, sources: &str) -> Result<Scene, Diagnostics> {
+    let acceptance = r#"acceptance: Cosine, channels: [(name: "E", responsivity: 1, reads: Irradiance)])"#;
     scene_from_text(&format!(
         "Scene(surfaces: {{ {surfaces} }}, objects: [{objects}], sources: [{sources}],
-        instruments: [(name: \"meter\", sensor: {meter}, at: (0.3, 0, 0), facing: (0, 0, 1))])"
+        instruments: [(name: \"meter\", sensor: Sensor(aperture: {aperture}, {acceptance}, at: (0.3, 0, 0), facing: (0, 0, 1))])"
     ))
 }
 
@@ -98,4 +102,17 @@ fn a_sensor_on_an_emitter_is_refused_only_if_it_looks_into_it() {
     assert!(!on("shape: Polygon([(0, 1, 0), (0.2, -1, 0), (-1, -1, 0)])"), "it is beside it");
     assert!(!on("shape: Polygon([(-1, -1, 0), (1, -1, 0), (0, 1, 0)])"), "the sensor looks the other way");
     assert!(!on("shape: Sphere(1), at: (0.3, 0, 1), seen_from: Inside"), "the outside does not emit");
+}
+
+#[test]
+fn an_aperture_that_lies_on_a_part_of_an_emitter_is_refused() {
+    let lamp = |x: f64| {
+        format!(r#"(name: "lamp", shape: Rectangle(2, 1), at: ({x}, 0, 0), facing: (0, 0, -1), strength: Watts(1), spectrum: "A")"#)
+    };
+    let with = |aperture: &str, x: f64| refused(scene_with(aperture, "", "", &lamp(x)), "looks into it");
+    for aperture in ["Rectangle(width_m: 0.2, height_m: 0.2)", "Disc(radius_m: 0.1)"] {
+        assert!(with(aperture, 1.39), "{aperture}");
+        assert!(!with(aperture, 1.4), "{aperture} touches");
+    }
+    assert!(!with("Point", 1.39));
 }

@@ -91,7 +91,6 @@ fn curve(name: String, set: &[usize], places: &[Place], ladder: &Climbed, refere
     let poses: BTreeSet<(&str, usize)> = set.iter().map(|&i| (places[i].instrument.as_str(), places[i].index)).collect();
     let scatter = (0.5 / (ladder.seeds as f64 * poses.len() as f64)).sqrt();
     let told: Vec<&Rung> = rungs.iter().filter(|r| !r.reference_limits && r.error > 0.0).collect();
-    let known: Vec<(f64, f64, f64)> = told.iter().map(|r| (r.samples as f64, r.cpu_seconds, r.error)).collect();
     let claiming: Vec<&Rung> = rungs.iter().filter(|r| r.claimed > 0.0).collect();
     let upper = |rungs: Vec<&'_ Rung>| -> Vec<Rung> {
         let seconds: Vec<f64> = rungs.iter().map(|r| r.cpu_seconds).collect();
@@ -102,17 +101,19 @@ fn curve(name: String, set: &[usize], places: &[Place], ladder: &Climbed, refere
         |rungs: &[Rung], x: fn(&Rung) -> f64, y: fn(&Rung) -> f64| fit(&rungs.iter().map(|r| (x(r), y(r))).collect::<Vec<_>>(), scatter);
     let error_by_samples = by(&told, |r| r.samples as f64, |r| r.error);
     let logarithms: Vec<f64> = told.iter().map(|r| r.ratio().ln()).filter(|l| l.is_finite()).collect();
-    ErrorCurve {
+    let mut curve = ErrorCurve {
         name,
         readings: set.len(),
         reference_uncertainty,
         error_by_time: by(&told, |r| r.cpu_seconds, |r| r.error),
         claimed_by_time: by(&claiming, |r| r.cpu_seconds, |r| r.claimed),
         ratio: (!logarithms.is_empty()).then(|| (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()),
-        times: TARGETS.map(|target| time_to(target, &known, error_by_samples.as_ref())),
+        times: [TimeTo::Unknown; 3],
         error_by_samples,
         rungs,
-    }
+    };
+    curve.times = TARGETS.map(|target| curve.cost_to(target, |rung| rung.cpu_seconds));
+    curve
 }
 
 impl ErrorCurve {
@@ -121,6 +122,26 @@ impl ErrorCurve {
     pub fn known(&self) -> Vec<(f64, f64, f64)> {
         let told = self.rungs.iter().filter(|r| !r.reference_limits && r.error > 0.0);
         told.map(|r| (r.samples as f64, r.cpu_seconds, r.error)).collect()
+    }
+
+    /// The rungs that tell whether an error is reached: those whose error is known, and those where the reference hides it although
+    /// error and reference together stay within.
+    pub fn telling(&self, error: f64) -> impl Iterator<Item = (&Rung, f64)> {
+        self.rungs.iter().filter_map(move |rung| {
+            let at_most = rung.error.hypot(self.reference_uncertainty);
+            match (rung.reference_limits || rung.error == 0.0, at_most <= error) {
+                (false, _) => Some((rung, rung.error)),
+                (true, true) => Some((rung, at_most.max(f64::MIN_POSITIVE))),
+                (true, false) => None,
+            }
+        })
+    }
+
+    /// What it costs to reach an error: `cost` of a rung, taken like the time of [`time_to`].
+    #[must_use]
+    pub fn cost_to(&self, error: f64, cost: impl Fn(&Rung) -> f64) -> TimeTo {
+        let rungs: Vec<(f64, f64, f64)> = self.telling(error).map(|(r, e)| (r.samples as f64, cost(r), e)).collect();
+        time_to(error, &rungs, self.error_by_samples.as_ref())
     }
 }
 

@@ -1,7 +1,7 @@
 //! What one plan saves against another: the ratio of the processor times to the same error.
 
 use super::power_law::{TimeTo, time_to};
-use super::{PlanConvergence, TARGETS};
+use super::{ErrorCurve, PlanConvergence, TARGETS};
 
 /// How much longer another plan takes than the first.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,15 +21,20 @@ pub(super) fn gains(plans: &[PlanConvergence]) -> Vec<Gain> {
     let Some((first, others)) = plans.split_first() else { return Vec::new() };
     let mut gains = Vec::new();
     for other in others {
-        let Some(slow) = other.curves.first().map(super::ErrorCurve::known) else { continue };
-        let fast = first.curves.first().map(super::ErrorCurve::known);
-        let smallest = |rungs: &[(f64, f64, f64)]| rungs.iter().map(|r| r.2).fold(f64::INFINITY, f64::min);
-        let common = smallest(&slow).max(fast.as_deref().map_or(0.0, smallest));
+        let Some(slow) = other.curves.first() else { continue };
+        let fast = first.curves.first();
+        let smallest = |curve: &ErrorCurve| curve.known().iter().map(|r| r.2).fold(f64::INFINITY, f64::min);
+        let common = smallest(slow).max(fast.map_or(0.0, smallest));
         let at = |error: f64| {
-            let theirs = time_to(error, &slow, None);
-            let mine = match (&first.exact, &fast) {
+            // Only what was reached: without the fitted law nothing is extrapolated.
+            let reached = |curve: &ErrorCurve| {
+                let rungs: Vec<_> = curve.telling(error).map(|(r, e)| (r.samples as f64, r.cpu_seconds, e)).collect();
+                time_to(error, &rungs, None)
+            };
+            let theirs = reached(slow);
+            let mine = match (&first.exact, fast) {
                 (Some(exact), _) => TimeTo::Interpolated(exact.cpu_seconds),
-                (None, Some(rungs)) => time_to(error, rungs, None),
+                (None, Some(curve)) => reached(curve),
                 (None, None) => TimeTo::Unknown,
             };
             let (slow, fast) = (theirs.seconds()?, mine.seconds().filter(|s| *s > 0.0)?);

@@ -21,6 +21,7 @@
 //! | [`radiance`] | radiance, W m⁻² sr⁻¹ | proportionality |
 //! | [`line_width`] | width of a spectral line, nm | V(λ₀) + ½ (V′₊ − V′₋) σ √(2/π) → V(λ₀) |
 //! | [`slivers`] | aspect ratio of triangles | product Gauss quadrature; half of a disc |
+//! | [`touching`] | gap between an aperture and an emitter | perpendicular rectangles with a common edge |
 //! | [`penumbra`] | width of a penumbra, m | the integral over the part that is seen |
 //! | [`counts`] | numbers of spectral lines, sources, instruments | sums |
 //!
@@ -40,6 +41,7 @@ pub mod scale;
 pub mod slivers;
 pub mod source_size;
 mod text;
+pub mod touching;
 
 pub use run::{COSTLY_SECONDS, Failing, Judgement, Row, SweepResult, run};
 
@@ -59,7 +61,7 @@ pub struct Sweep {
 }
 
 /// Every sweep.
-pub const SWEEPS: [Sweep; 13] = [
+pub const SWEEPS: [Sweep; 14] = [
     scale::SWEEP,
     offset::SWEEP,
     source_size::SWEEP,
@@ -69,6 +71,7 @@ pub const SWEEPS: [Sweep; 13] = [
     radiance::SWEEP,
     line_width::SWEEP,
     slivers::SWEEP,
+    touching::SWEEP,
     penumbra::SWEEP,
     counts::LINES,
     counts::SOURCES,

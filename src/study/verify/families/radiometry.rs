@@ -197,16 +197,16 @@ fn point_at_head(c: &Case, head: &str) -> Outcome {
     found(&scene(&[source], &c.system().head_meter(head), c.vector("sensor")?, [0.0, 0.0, 1.0])?)
 }
 
-/// A cap about the zenith: a sphere that fills it, a plane without end for the half space, everything for the whole sphere.
+/// A cap about the zenith: a sphere that fills it; everything for the whole sphere, of which the half space above counts half.
 fn cap_over_head(c: &Case, head: &str) -> Outcome {
     let half_deg = c.number("a_deg")?;
-    let place = match half_deg {
-        _ if half_deg < 90.0 => format!("shape: Sphere({:e}), at: (0, 0, 1)", half_deg.to_radians().sin()),
-        90.0 => disc([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], EVERYTHING_M),
-        180.0 => "shape: Environment".to_owned(),
+    let (place, share) = match half_deg {
+        _ if half_deg < 90.0 => (format!("shape: Sphere({:e}), at: (0, 0, 1)", half_deg.to_radians().sin()), 1.0),
+        90.0 => ("shape: Environment".to_owned(), 0.5),
+        180.0 => ("shape: Environment".to_owned(), 1.0),
         _ => return Err(Fault::wrong(format!("no source fills a cap of {half_deg}°"))),
     };
-    read_up(&[format!("{place}, {}", c.system().radiance(c.number("L")?))], &c.system().head_meter(head))
+    Ok(read_up(&[format!("{place}, {}", c.system().radiance(c.number("L")?))], &c.system().head_meter(head))?.times(share))
 }
 
 fn rectangle_over_head(c: &Case, head: &str) -> Outcome {
