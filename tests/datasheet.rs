@@ -287,7 +287,7 @@ fn spread(channel: &ChannelSheet) -> Option<&Figure> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn random_meters_are_measured_as_their_curves_are(

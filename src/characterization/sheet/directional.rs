@@ -14,6 +14,7 @@ use super::spectral::{is_illuminance, seen_by};
 use super::{Absent, Index, SheetError};
 use crate::characterization::Figure;
 use crate::characterization::bench::Bench;
+use crate::characterization::bench::field::Probe;
 use crate::characterization::bench::goniometer::Goniogram;
 use crate::characterization::bench::sampling::halving_error;
 use crate::characterization::bench::sphere::to_local;
@@ -42,6 +43,13 @@ pub enum Receptor {
         /// Half-angle, rad.
         half_angle_rad: f64,
     },
+    /// Sees a spot in its plane of focus.
+    Spot {
+        /// Half the measured field, rad.
+        half_angle_rad: f64,
+        /// Distance of the plane of focus, m.
+        focus_m: f64,
+    },
     /// Weighs light from all round.
     Head(Head),
 }
@@ -51,6 +59,7 @@ impl Receptor {
         match (acceptance, acceptance.head()) {
             (_, Some(head)) => Self::Head(Head::of(head)),
             (Acceptance::Cone { half_angle_rad }, None) => Self::Cone { half_angle_rad: *half_angle_rad },
+            (Acceptance::Spot(spot), None) => Self::Spot { half_angle_rad: spot.half_angle_rad, focus_m: spot.focus_m },
             _ => Self::Planar,
         }
     }
@@ -68,7 +77,8 @@ pub(super) fn characterise(bench: &Bench<'_>) -> Result<Directional, SheetError>
     let receptor = Receptor::of(&bench.sensor().acceptance);
     match receptor {
         Receptor::Planar => planar(bench),
-        Receptor::Cone { half_angle_rad } => cone(bench, half_angle_rad),
+        Receptor::Cone { half_angle_rad } => field(bench, receptor, half_angle_rad, Probe::Beam),
+        Receptor::Spot { half_angle_rad, focus_m } => field(bench, receptor, half_angle_rad, Probe::PointAt { focus_m }),
         Receptor::Head(head) => all_round(bench, head),
     }
 }
@@ -179,9 +189,8 @@ fn measured_f2(goniogram: &Goniogram, upper: f64) -> Result<Figure, DirectionalE
     Ok(mean)
 }
 
-fn cone(bench: &Bench<'_>, half_angle_rad: f64) -> Result<Directional, SheetError> {
-    let receptor = Receptor::Cone { half_angle_rad };
-    let why = format!("the sensor sees a cone of {:.3}° about its axis and is not meant to follow the cosine", half_angle_rad.to_degrees());
+fn field(bench: &Bench<'_>, receptor: Receptor, half_angle_rad: f64, probe: Probe) -> Result<Directional, SheetError> {
+    let why = format!("the sensor sees {:.3}° about its axis and is not meant to follow the cosine", half_angle_rad.to_degrees());
     let mut absent = vec![Absent { symbol: "f2", why }];
     let spectrum = seen_by(&bench.sensor().channels[0])?;
     let reach = REACH * half_angle_rad;
@@ -190,8 +199,15 @@ fn cone(bench: &Bench<'_>, half_angle_rad: f64) -> Result<Directional, SheetErro
         absent.push(Absent { symbol: "α₅₀", why: "the cone is too wide for a beam to be led across its edge".to_owned() });
         return Ok(Directional { receptor, indices: Vec::new(), absent, goniogram: None });
     }
-    let field = bench.field(0, &spectrum, reach)?;
+    let field = bench.field(0, &spectrum, reach, probe)?;
     let degree = 180.0 / PI;
+    // Linear over a share of the radius in the plane of focus: 90 % and 10 % are 0.8 of it apart.
+    let edge_rad = match &bench.sensor().acceptance {
+        Acceptance::Spot(spot) => {
+            [0.4, -0.4].map(|k| ((1.0 + k * spot.edge) * half_angle_rad.tan()).atan()).into_iter().fold(0.0, |a, b| (a - b).abs())
+        }
+        _ => 0.0,
+    };
     let index = |symbol, name, unit, computed: Figure, measured: Figure, conditions: &str| Index {
         symbol,
         name,
@@ -215,7 +231,7 @@ fn cone(bench: &Bench<'_>, half_angle_rad: f64) -> Result<Directional, SheetErro
             "α₁₀ − α₉₀",
             "edge of the measuring field",
             "°",
-            Figure::exact(0.0, half_angle_rad).scaled(degree),
+            Figure::exact(edge_rad, half_angle_rad).scaled(degree),
             field.edge_rad.scaled(degree),
             "from 90 % to 10 % of the response",
         ),

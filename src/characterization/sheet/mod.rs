@@ -47,7 +47,7 @@ use super::spectral_mismatch::MismatchError;
 use super::{Figure, figure::in_quadrature};
 use crate::estimate::Watch;
 use crate::quantity::Measurand;
-use crate::sensor::Sensor;
+use crate::sensor::{Acceptance, Sensor};
 use crate::spectrum::SpectrumError;
 
 /// What a data sheet is made of. Cameras, whose sheet is that of EMVA 1288, are another variant.
@@ -257,8 +257,12 @@ fn meter(sensor: &Sensor, options: &Options, watch: &Watch<'_>) -> Result<DataSh
         return Err(SheetError::Step(options.step_nm));
     }
     // The optical part by itself; the electronics come in where they are the subject.
-    let bench = Bench::new(Sensor { readout: None, ..sensor.clone() }, options.seed, watch);
-    let directional = directional::characterise(&bench)?;
+    let optics = Sensor { readout: None, ..sensor.clone() };
+    let turned = Bench::new(optics.clone(), options.seed, watch);
+    let directional = directional::characterise(&turned)?;
+    let sensor = &without_lens(sensor);
+    let bench = Bench::new(without_lens(&optics), options.seed, watch);
+    bench.count(&turned);
     (watch.progress)(0.3);
     let (from_nm, to_nm) = spectral::range_nm(sensor);
     let spectrogram = bench.spectrogram(from_nm, to_nm, options.step_nm)?;
@@ -285,6 +289,14 @@ fn meter(sensor: &Sensor, options: &Options, watch: &Watch<'_>) -> Result<DataSh
         tally: bench.tally(),
         options: *options,
     })
+}
+
+/// A sensor whose lens is taken off: what it makes of a spectrum does not depend on where it is focused, and has a formula without it.
+fn without_lens(sensor: &Sensor) -> Sensor {
+    match &sensor.acceptance {
+        Acceptance::Spot(spot) => Sensor { acceptance: Acceptance::Cone { half_angle_rad: spot.half_angle_rad }, ..sensor.clone() },
+        _ => sensor.clone(),
+    }
 }
 
 /// Sum of indices and its class: linear, as the manual that the limits are from adds them.

@@ -180,6 +180,7 @@ pub fn to_json(sheet: &DataSheet) -> String {
     let (receptor, half_angle) = match sheet.receptor {
         Receptor::Planar => ("planar", None),
         Receptor::Cone { half_angle_rad } => ("cone", Some(half_angle_rad.to_degrees())),
+        Receptor::Spot { half_angle_rad, .. } => ("spot", Some(half_angle_rad.to_degrees())),
         Receptor::Head(head) => (head.name(), None),
     };
     let document = Document {

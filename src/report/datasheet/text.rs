@@ -17,6 +17,9 @@ pub fn to_text(sheet: &DataSheet) -> String {
     let receptor = match sheet.receptor {
         Receptor::Planar => "planar receptor".to_owned(),
         Receptor::Cone { half_angle_rad } => format!("cone of half-angle {}°", trimmed(half_angle_rad.to_degrees())),
+        Receptor::Spot { half_angle_rad, focus_m } => {
+            format!("spot of half-angle {}°, focused at {} m", trimmed(half_angle_rad.to_degrees()), trimmed(focus_m))
+        }
         Receptor::Head(head) => format!("{} head", head.name()),
     };
     let mut lines = vec![
