@@ -6,7 +6,7 @@
 //! | [`png8_rgb`] | PNG, colour | 3 × 8 bits, sRGB | previews |
 //! | [`tiff16`] | TIFF, grey, no compression | 16 bits | raw frames |
 //! | [`npy_f32`], [`npy_f64`] | NPY 1.0, any shape | 32- and 64-bit floats | expected electrons, for NumPy |
-//! | [`exr`] | OpenEXR, channels by name, ZIP | 32-bit floats | expected electrons, for picture programs |
+//! | [`exr`](fn@exr) | OpenEXR, channels by name, ZIP | 32-bit floats | expected electrons, for picture programs |
 //!
 //! Pixels go row by row from the top left; nothing is scaled or rounded, and what is written reads back bit for bit. The same pixels give
 //! the same bytes: no dates, no names of programs.
