@@ -179,7 +179,9 @@ fn files_are_written_whole_and_say_where() {
         assert!(written.contains(part));
         match format {
             "json" => assert!(written.contains("\"coverage_probability\": 0.95")),
-            "csv" => assert!(written.starts_with("instrument,") && written.lines().next().unwrap().ends_with(",target_met,seed,notes")),
+            "csv" => assert!(
+                written.starts_with("instrument,") && written.lines().next().unwrap().contains(",target_met,seed,notes,ideal_value,")
+            ),
             _ => {}
         }
     }

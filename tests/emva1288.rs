@@ -93,7 +93,7 @@ fn the_package_finds_what_was_put_in() {
     std::fs::write(&figures_file, &output.stdout).unwrap();
     std::fs::write(&truth_file, truth.to_string()).unwrap();
     let judged = Command::new(python)
-        .arg(root().join("tests/emva1288.py"))
+        .arg(root().join("tests/judged_by_emva1288.py"))
         .args([folder.join("emva1288.txt"), figures_file, truth_file])
         .output()
         .unwrap();

@@ -10,7 +10,7 @@
 //! | spherical | any | 1/4 | θ = 0 | f2,0 |
 //! | hemispherical | pole | (1 + cos θ)/4 | θ = 0 | f2,h |
 //! | cylindrical | axis of the cylinder | sin θ / π | θ = 90°, φ = 0 | f2,z |
-//! | semicylindrical | axis of the cylinder, front | sin θ (1 + cos φ) / 2π | θ = 90°, φ = 0 | f2,zh |
+//! | semicylindrical | axis of the cylinder, front | sin θ (1 + cos φ) / π | θ = 90°, φ = 0 | f2,zh |
 //!
 //! y is the reading of the same beam from direction (θ, φ). For a planar head the fraction is `∫ |Y/(Y₀ cos ε) − 1| sin 2ε dε`, the mean over
 //! azimuth of the index of ISO/CIE 19476; that the other heads are weighted in the same way, with their own ideal, follows CIE 69 as the
@@ -65,7 +65,7 @@ impl Head {
             Self::Spherical => 0.25,
             Self::Hemispherical => 0.25 * (1.0 + theta_rad.cos()),
             Self::Cylindrical => theta_rad.sin() / PI,
-            Self::Semicylindrical => theta_rad.sin() * (1.0 + phi_rad.cos()) / TAU,
+            Self::Semicylindrical => theta_rad.sin() * (1.0 + phi_rad.cos()) / PI,
         }
     }
 

@@ -223,7 +223,7 @@ proptest! {
     }
 }
 
-/// (z, Φ(z)) by the C library's erfc, which is exact to the last digit.
+/// (z, Φ(z)) by the C library's erfc, which is exact to the last digit; ours is that of `statrs`, good to the 1e-10 that the module states.
 const NORMAL: &[(f64, f64)] = &[
     (-8.0, 6.220960574271819e-16),
     (-3.0, 0.0013498980316300957),
@@ -237,7 +237,7 @@ const NORMAL: &[(f64, f64)] = &[
 #[test]
 fn the_normal_cumulative_agrees_with_references_and_integrates_its_density() {
     for &(z, expected) in NORMAL {
-        assert!((normal_cumulative(z) / expected - 1.0).abs() < 1e-12, "{z}: {}", normal_cumulative(z));
+        assert!((normal_cumulative(z) / expected - 1.0).abs() < 1e-10, "{z}: {}", normal_cumulative(z));
         let h = 1e-3;
         let slope = (normal_cumulative(z + h) - normal_cumulative(z - h)) / (2.0 * h);
         // Third derivative of Φ over density is z² − 1; rounding of values near 1.

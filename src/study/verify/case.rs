@@ -181,7 +181,9 @@ impl Case {
                 String::new()
             }
         };
-        let [id, title, quantity, unit] = ["id", "title", "quantity", "unit"].map(&mut text);
+        let [id, quantity, unit] = ["id", "quantity", "unit"].map(&mut text);
+        // Where the title says no more than the quantity, it may be left empty.
+        let title = if record.get("title").and_then(Value::as_str) == Some("") { quantity.clone() } else { text("title") };
         let behaviour = record.get("behaviour").and_then(Value::as_str).map(str::to_owned);
         let reference = match record.get("reference") {
             Some(value) => decimal(value, "reference").map_err(|fault| problems.push(fault.to_string())).ok(),

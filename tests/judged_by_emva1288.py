@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The package emva1288 judges frames that `etendue photon-transfer` wrote.
 
-usage: emva1288.py DESCRIPTOR FIGURES TRUTH
+usage: judged_by_emva1288.py DESCRIPTOR FIGURES TRUTH
 
 DESCRIPTOR is the data set, FIGURES what etendue measured from the same frames (JSON), TRUTH what was put in (JSON): the pixel, and the
 photons a second. The package knows nothing of either. Tolerances are standard uncertainties of what the package measures, from the number
