@@ -15,10 +15,12 @@
 //! | what a rule left out | B | its bound |
 
 mod coordinates;
+pub mod frame;
 mod header;
 mod provenance;
 mod reading;
 
+pub use frame::{Frame, Plane, expose};
 pub use header::CheckpointHeader;
 pub use provenance::{Difference, Provenance, in_words};
 pub use reading::{Measurement, Reading, measure, measure_with};

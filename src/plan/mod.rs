@@ -9,6 +9,7 @@
 //! or narrow it; `choose/` then picks the cheapest method that serves. After every rule the terms kept and left out must be the
 //! naive ones again; a rule that breaks this stops the run.
 
+pub mod camera;
 mod check;
 pub mod choose;
 mod explain;
@@ -17,6 +18,7 @@ pub(crate) mod sight;
 pub mod spectral;
 mod term;
 
+pub use camera::CameraPlan;
 pub use check::PlanError;
 pub use term::{Bound, Method, Narrowing, Omission, Term, TermId, Transport, Visibility};
 
@@ -47,6 +49,8 @@ pub struct Plan {
     pub spectral: Vec<Option<SpectralPlan>>,
     /// Whether rays are traced at all, and so whether the surfaces are prepared for them.
     pub needs_rays: bool,
+    /// How each camera of the scene is rendered.
+    pub cameras: Vec<CameraPlan>,
     /// Rules that were switched off by name.
     pub without: Vec<String>,
 }
@@ -74,6 +78,7 @@ impl Plan {
             expected.verify(&plan, "choose")?;
         }
         plan.spectral = spectral::plan_wavelengths(scene, &plan);
+        plan.cameras = CameraPlan::of(scene, options);
         plan.needs_rays = plan.kept.iter().any(Term::needs_rays);
         Ok(plan)
     }
@@ -91,7 +96,16 @@ impl Plan {
                 }
             }
         }
-        Plan { naive: true, kept, omitted: Vec::new(), narrowed: Vec::new(), spectral: Vec::new(), needs_rays: true, without: Vec::new() }
+        Plan {
+            naive: true,
+            kept,
+            omitted: Vec::new(),
+            narrowed: Vec::new(),
+            spectral: Vec::new(),
+            needs_rays: true,
+            cameras: Vec::new(),
+            without: Vec::new(),
+        }
     }
 
     /// Moves the terms that a rule names to the omitted ones.
@@ -116,5 +130,6 @@ impl Plan {
 /// Every name that `--without` accepts: rules that omit, then ways to choose.
 #[must_use]
 pub fn rule_names() -> Vec<&'static str> {
-    omit::RULES.iter().map(|r| r.name).chain(choose::CHOICES.iter().map(|c| c.name)).collect()
+    let names = omit::RULES.iter().map(|r| r.name).chain(choose::CHOICES.iter().map(|c| c.name));
+    names.chain(camera::RULES.iter().map(|(name, _)| *name)).collect()
 }

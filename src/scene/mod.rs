@@ -14,10 +14,13 @@
 //! | `spectrum_argument` | one spectrum or factor given as text |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
+//! | `camera_reader` | cameras and their files |
 //! | `reader` | the scene as a whole |
 //! | `checks` | what only the scene as a whole can show |
 
 mod adjustment;
+pub mod camera;
+mod camera_reader;
 mod channel_reader;
 mod checks;
 mod decode;
@@ -46,6 +49,7 @@ mod syntax;
 #[cfg(test)]
 mod tests;
 
+pub use camera::{PlacedCamera, Region};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};
@@ -82,8 +86,10 @@ pub struct Scene {
     pub surfaces: Vec<Surface>,
     /// What emits.
     pub sources: Vec<Source>,
-    /// What is read, at least one instrument.
+    /// What is read; at least one instrument or camera.
     pub instruments: Vec<Instrument>,
+    /// What takes pictures.
+    pub cameras: Vec<PlacedCamera>,
     /// How curve files were understood: converted units, decimal commas, gaps. No problem, but to be said.
     pub remarks: Vec<String>,
     /// A hash of every file that the scene was read from; zero for a scene made in memory.

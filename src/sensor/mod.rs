@@ -8,10 +8,12 @@
 //! |---|---|---|
 //! | aperture | `aperture.rs` | where light enters: `A` |
 //! | acceptance | `acceptance.rs` | from which directions, and how well: `R(ω)` |
+//! | camera | `camera/` | a lens and an array of pixels |
 //! | channel | `channel.rs` | how well each wavelength counts, `s(λ)`, and what is read off |
 
 pub mod acceptance;
 pub mod aperture;
+pub mod camera;
 pub mod channel;
 
 pub use acceptance::{Acceptance, DirectionalResponse};
