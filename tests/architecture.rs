@@ -29,7 +29,7 @@ const LAYERS: [(&str, usize); 18] = [
 ];
 
 /// Where a foreign crate may be named.
-const DOORS: [(&str, &[&str]); 15] = [
+const DOORS: [(&str, &[&str]); 18] = [
     ("glam", &["src/math/mod.rs"]),
     ("obvhs", &["src/geometry/bvh/"]),
     ("statrs", &["src/metrology/distribution"]),
@@ -39,6 +39,7 @@ const DOORS: [(&str, &[&str]); 15] = [
         "serde",
         &[
             "src/report/json.rs",
+            "src/report/emva/json.rs",
             "src/report/lecture/json.rs",
             "src/report/spectrum/json.rs",
             "src/report/verify/json.rs",
@@ -50,6 +51,7 @@ const DOORS: [(&str, &[&str]); 15] = [
         "serde_json",
         &[
             "src/report/json.rs",
+            "src/report/emva/json.rs",
             "src/report/lecture/json.rs",
             "src/report/spectrum/json.rs",
             "src/report/verify/json.rs",
@@ -83,11 +85,16 @@ const DOORS: [(&str, &[&str]); 15] = [
             "src/estimate/mod.rs",
             "src/estimate/journal/recording.rs",
             "src/report/plot/error.rs",
+            "src/report/image/error.rs",
+            "src/characterization/emva/error.rs",
         ],
     ),
     ("roxmltree", &["src/spectrum/spdx/"]),
     ("plotters", &["src/report/plot/"]),
     ("resvg", &["src/report/plot/"]),
+    ("png", &["src/report/image/png.rs"]),
+    ("tiff", &["src/report/image/tiff.rs"]),
+    ("exr", &["src/report/image/exr.rs"]),
     ("clap", &["src/bin/etendue/"]),
     ("indicatif", &["src/bin/etendue/"]),
 ];

@@ -25,6 +25,7 @@ use etendue::measurement::{Measurement, Reading, measure};
 use etendue::metrology::{Budget, BudgetRow};
 use etendue::observer::{AlphaOpic, Individual};
 use etendue::plan::{Plan, PlanOptions};
+use etendue::quantity::air::wavelength_in_vacuum_nm;
 use etendue::report::json::to_json;
 use etendue::scene::{Scene, read_scene};
 
@@ -106,6 +107,20 @@ fn laws() -> Vec<Law> {
             ],
         ),
         law(
+            "flat-field.ron",
+            [1024, 16384],
+            &[
+                ("pixel", 0, "E_e", 3.0 * PI / 257.0),
+                // µmol/J of 525 nm in air: λ_vac/(h c N_A).
+                (
+                    "pixel",
+                    0,
+                    "E_p",
+                    3.0 * PI / 257.0 * wavelength_in_vacuum_nm(525.0) * 1e-3 / (6.626_070_15e-34 * 299_792_458.0 * 6.022_140_76e23),
+                ),
+            ],
+        ),
+        law(
             "narrow-acceptance.ron",
             [1024, 16384],
             &[
@@ -133,6 +148,8 @@ fn laws() -> Vec<Law> {
             near: vec![("work plane", 8 * 20 + 12, "E_v", 531.1, 0.003)],
             ..law("office.ron", [256, 256], &[])
         },
+        // Patch by patch against direct integration: tests/cameras/chart.rs.
+        law("colour-chart.ron", [8, 16], &[]),
         law("mesh.ron", [131072, 65536], &[]),
         Law {
             // The same with an analytic window, 4 000 000 paths: 558.0 ± 1.1.
@@ -339,6 +356,7 @@ fn what_is_left_out_is_not_done() {
         "ideal-integrating-sphere.ron",
         "laser-line.ron",
         "narrow-acceptance.ron",
+        "flat-field.ron",
         "eye-on-a-display.ron",
     ] {
         assert_eq!(read(&scene(file), false, 1024, 0).counters, Counters::default(), "{file}");

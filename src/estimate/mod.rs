@@ -19,6 +19,7 @@
 //! | `task.rs` | what is to be done for an instrument |
 //! | `campaign.rs` | a run, batch by batch |
 //! | `batch.rs` | how many samples for which job: the stopping rule |
+//! | `frames.rs` | noisy frames of a camera pixel |
 //! | `run.rs` | threads |
 //! | `journal/` | work that is done once: resumed, shared and repeated runs |
 //!
@@ -31,6 +32,7 @@ mod campaign;
 pub mod closed_form;
 mod deterministic;
 mod direct;
+pub mod frames;
 mod job;
 pub mod journal;
 mod lanes;

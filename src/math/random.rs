@@ -123,6 +123,14 @@ impl Stream {
         unit_interval((mix(self.key ^ 0x5851_f42d_4c95_7f2d) >> 32) as u32)
     }
 
+    /// 64 random bits: number `counter` of a sequence of the stream's own, without the strata of its points. For noise, where every
+    /// number has to be independent of every other.
+    #[inline(always)]
+    #[must_use]
+    pub fn bits(self, counter: u64) -> u64 {
+        mix(self.key.wrapping_add((counter << 1 | 1).wrapping_mul(0xd6e8_feb8_6659_fd93)))
+    }
+
     /// Keys of the index and of the four dimensions of a set.
     #[inline(always)]
     fn keys(self, set: u32) -> [u32; 5] {
@@ -235,6 +243,29 @@ mod tests {
         };
         let (coarse, fine) = (rms(64), rms(4096));
         assert!(fine < coarse / 40.0, "64 points: {coarse:.2e}, 4096 points: {fine:.2e}");
+    }
+
+    #[test]
+    fn bits_of_neighbouring_streams_and_counters_are_independent() {
+        // Each of the 64 bits, and each pair of a bit with the same one of a neighbour, is as often 0 as 1.
+        let n = 1 << 14;
+        let stream = |i: u64| Stream::new(3, &[9]).child(i);
+        for other in [0u64, 1, 2] {
+            let mut ones = [0u32; 64];
+            for i in 0..n {
+                let bits = match other {
+                    0 => stream(i).bits(0),
+                    1 => stream(i).bits(0) ^ stream(i).bits(1),
+                    _ => stream(i).bits(0) ^ stream(i + 1).bits(0),
+                };
+                for (bit, count) in ones.iter_mut().enumerate() {
+                    *count += (bits >> bit & 1) as u32;
+                }
+            }
+            let chi_squared: f64 = ones.iter().map(|&k| (f64::from(k) - 0.5 * n as f64).powi(2) / (0.25 * n as f64)).sum();
+            // 64 degrees of freedom: mean 64, standard deviation 11.3.
+            assert!((30.0..110.0).contains(&chi_squared), "{other}: {chi_squared}");
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Quantiles of the normal, Student's t and χ² distributions.
+//! Quantiles of the normal, Student's t and χ² distributions; density and cumulative probability of the normal one.
 //!
 //! ```text
 //! normal   Φ(z) = p            z = −√2 erfc⁻¹(2p)
@@ -15,7 +15,7 @@
 //! Annals of Mathematical Statistics 17 (1946) 216.
 
 use statrs::function::{beta, erf, gamma};
-use std::f64::consts::{LN_2, SQRT_2};
+use std::f64::consts::{LN_2, PI, SQRT_2};
 
 /// From here on the expansion in 1/ν of Student's t is closer than the incomplete beta function.
 const MANY_DEGREES_STUDENT: f64 = 1e3;
@@ -41,6 +41,16 @@ pub fn normal_quantile(p: f64) -> Option<f64> {
     } else {
         Some(SQRT_2 * erf::erfc_inv(2.0 * (1.0 - p)))
     }
+}
+
+/// Probability density of a standard normal variable at `z`.
+pub fn normal_density(z: f64) -> f64 {
+    (-0.5 * z * z).exp() / (2.0 * PI).sqrt()
+}
+
+/// Probability that a standard normal variable stays below `z`. Small probabilities keep their digits.
+pub fn normal_cumulative(z: f64) -> f64 {
+    0.5 * erf::erfc(-z / SQRT_2)
 }
 
 /// The `t` that a variable of Student's distribution with `dof` degrees of freedom stays below with probability `p`.

@@ -13,7 +13,7 @@
 //! | [`moments`] | count, mean and spread that accumulate and merge |
 //! | [`sum`] | a sum that keeps small terms |
 //! | [`replicates`] | the type A evaluation of independent replicates |
-//! | [`distribution`] | quantiles of the normal, Student's t and χ² distributions |
+//! | [`distribution`] | quantiles of the normal, Student's t and χ² distributions, the normal probability |
 //! | [`budget`] | the uncertainty budget, effective degrees of freedom, coverage |
 //! | [`rounding`] | value and uncertainty written with the same last place |
 

@@ -10,12 +10,19 @@
 //! | `spectrum/` | the quantities of one spectrum, in the same three forms |
 //! | `verify/` | what became of reference cases, as text, JSON, CSV and a page of HTML |
 //! | `stability/` | sweeps of numerical stability |
+//! | `emva/` | figures of EMVA 1288 as text and JSON, descriptors of frames |
+//! | `image/` | frames as PNG, TIFF, NPY and EXR (feature `image`) |
+//! | `picture/` | frames for the eye: a preview, luminance in false colours |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
 pub mod convergence;
 pub mod csv;
+pub mod emva;
+#[cfg(feature = "image")]
+pub mod image;
 pub mod json;
 pub mod lecture;
+pub mod picture;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod spectrum;

@@ -22,6 +22,7 @@
 //! | `angular_response` | `Directional("table.csv")` | every direction alike |
 //! | `mosaic` | `None`, `Bayer("RGGB")`, `Pattern([["R", "G"], ["G", "B"]])` | `None` |
 //! | `exposure_ms` or `exposure_s` | above 0 | |
+//! | `pixel` | `Pixel(…)` (`pixel_reader.rs`) | expected electrons, but no raw frames |
 //! | `temperature_c` | °C, −273.15 to 200 | 20 |
 
 use std::sync::Arc;
@@ -32,6 +33,7 @@ use super::decode::{Fields, Value};
 use super::directional_table::read_directional;
 use super::document::{Body, Kind};
 use super::factor_range::{is_zero, outside_of};
+use super::pixel_reader::read_pixel;
 use super::placement::read_facing;
 use super::reading::Reading;
 use super::spectrum_reader::read_factor;
@@ -137,6 +139,7 @@ fn read_camera_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
         Some(v) => v.number_in("`temperature_c`", "-273.15 to 200", |x| (-273.15..=200.0).contains(&x), &mut reading.problems),
         None => Some(20.0),
     };
+    let pixel = fields.get("pixel").and_then(|v| read_pixel(&v, reading));
     if reading.problems.count() > before {
         return None;
     }
@@ -151,6 +154,7 @@ fn read_camera_body(value: &Value, name: &str, reading: &mut Reading) -> Option<
         angular_response,
         mosaic,
         channels: channels?,
+        pixel,
         exposure_s: exposure_s?,
         temperature_c: temperature_c?,
     })

@@ -15,6 +15,7 @@
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
 //! | `camera_reader` | cameras and their files |
+//! | `pixel_reader` | camera pixels |
 //! | `reader` | the scene as a whole |
 //! | `checks` | what only the scene as a whole can show |
 
@@ -35,6 +36,7 @@ pub mod mesh_file;
 mod mesh_reader;
 mod object_reader;
 mod observer_reader;
+mod pixel_reader;
 mod placement;
 mod reader;
 mod reading;
@@ -54,6 +56,7 @@ pub use diagnostic::{Diagnostic, Diagnostics};
 pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};
 pub use instrument_reader::MOST_POSES;
+pub use pixel_reader::pixel_from_file;
 pub use reader::{read_scene, scene_from_text};
 pub use sensor_reader::sensor_from_file;
 pub use spectrum_argument::{GivenFactor, GivenSpectrum, factor_from_text, spectrum_from_text};

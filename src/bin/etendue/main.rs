@@ -16,10 +16,14 @@ mod converge;
 mod disk;
 mod equation;
 mod explain;
+#[cfg(feature = "image")]
+mod expose;
 mod list;
 mod measure;
 mod merge;
 mod output;
+#[cfg(feature = "image")]
+mod photon_transfer;
 #[cfg(feature = "plot")]
 mod plot;
 mod processor_time;
@@ -47,6 +51,9 @@ enum Command {
     Check(check::Arguments),
     /// What will be computed, what is left out, and why.
     Explain(explain::Arguments),
+    #[cfg(feature = "image")]
+    /// Take the picture of a camera of a scene: expected electrons, raw frames, previews, regions.
+    Expose(expose::Arguments),
     /// Equations of the lecture: list them, or compute one from its inputs.
     Equation(equation::Arguments),
     /// True error and claimed uncertainty against run time.
@@ -59,6 +66,9 @@ enum Command {
     Merge(merge::Arguments),
     /// Measure again what a file of readings says, and tell whether the bits agree.
     Repeat(repeat::Arguments),
+    /// Take frames of a camera pixel in a flat field, and measure the figures of EMVA 1288 from them.
+    #[cfg(feature = "image")]
+    PhotonTransfer(photon_transfer::Arguments),
     /// Draw a picture: SVG or PNG, light or dark, for paper or slides.
     #[cfg(feature = "plot")]
     Plot(plot::Arguments),
@@ -82,12 +92,16 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        #[cfg(feature = "image")]
+        Command::Expose(arguments) => expose::run(&arguments),
         Command::Equation(arguments) => equation::run(&arguments),
         Command::Converge(arguments) => converge::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Repeat(arguments) => repeat::run(&arguments),
+        #[cfg(feature = "image")]
+        Command::PhotonTransfer(arguments) => photon_transfer::run(&arguments),
         #[cfg(feature = "plot")]
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),

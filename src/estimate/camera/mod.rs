@@ -85,7 +85,7 @@ impl Sampling {
     }
 }
 
-/// What the pixels of an area receive; rows from the top, columns from the left.
+/// What the pixels of areas receive, area by area; rows from the top, columns from the left.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rendered {
     /// For each plane (one behind a mosaic, else one a channel), each pixel: ∫ s_c E dλ, electrons per second and square metre.
@@ -100,7 +100,7 @@ pub struct Rendered {
     pub counters: Counters,
 }
 
-/// Renders an area of the image of a camera; the plan must be one of this scene.
+/// Renders areas of the image of a camera, one after the other; the plan must be one of this scene.
 ///
 /// # Errors
 /// When light is never absorbed.
@@ -108,7 +108,7 @@ pub fn render(
     scene: &Scene,
     plan: &Plan,
     camera: usize,
-    area: Area,
+    areas: &[Area],
     sampling: Sampling,
     seed: u64,
     watch: &Watch<'_>,
@@ -116,10 +116,7 @@ pub fn render(
     let (placed, plan) = (&scene.cameras[camera], &plan.cameras[camera]);
     let world = World::new(scene.elements.iter().map(|e| &e.shape));
     let stage = Stage::new(scene, placed, plan, &world, camera as u64, sampling, seed);
-    let runs: Vec<Run> = (area.y..area.y + area.height)
-        .flat_map(|row| (area.x..area.x + area.width).step_by(RUN).map(move |first| (row, first)))
-        .map(|(row, first)| Run { row, first, count: RUN.min(area.x + area.width - first) })
-        .collect();
+    let runs: Vec<Run> = areas.iter().flat_map(Area::runs).collect();
     let planes = placed.camera.planes();
     let mut rendered = Rendered { planes: vec![Vec::new(); planes], plane_uncertainties: vec![Vec::new(); planes], ..Rendered::default() };
     for (k, portion) in runs.chunks(PORTION).enumerate() {
@@ -135,7 +132,38 @@ pub fn render(
     Ok(rendered)
 }
 
+impl Area {
+    /// Pixels of the area.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.width * self.height
+    }
+
+    /// Row by row, in pieces of work.
+    fn runs(&self) -> impl Iterator<Item = Run> {
+        let Area { x, y, width, height } = *self;
+        (y..y + height)
+            .flat_map(move |row| (x..x + width).step_by(RUN).map(move |first| Run { row, first, count: RUN.min(x + width - first) }))
+    }
+}
+
 impl Rendered {
+    /// Takes the first pixels out, so that areas that were rendered together can be told apart.
+    #[must_use]
+    pub fn split_off_first(&mut self, pixels: usize) -> Rendered {
+        let first = |values: &mut Vec<f64>| {
+            let rest = values.split_off(pixels.min(values.len()));
+            std::mem::replace(values, rest)
+        };
+        Rendered {
+            planes: self.planes.iter_mut().map(first).collect(),
+            plane_uncertainties: self.plane_uncertainties.iter_mut().map(first).collect(),
+            luminance: first(&mut self.luminance),
+            luminance_uncertainty: first(&mut self.luminance_uncertainty),
+            counters: Counters::default(),
+        }
+    }
+
     fn append(&mut self, pixels: Pixels) {
         let Pixels { values, counters } = pixels;
         let planes = self.planes.len();

@@ -12,7 +12,7 @@ mod regions;
 pub(super) use regions::measure_regions;
 use regions::read_regions;
 
-use super::{Provenance, Reading};
+use super::{Measurement, Provenance, Reading};
 use crate::estimate::camera::{Area, Rendered, Sampling, render};
 use crate::estimate::{Counters, EstimateError, Stop, Watch};
 use crate::metrology::distribution::student_t_quantile;
@@ -72,6 +72,21 @@ pub struct Frame {
     pub wall_seconds: f64,
 }
 
+impl Frame {
+    /// The regions as readings of a measurement, for reports.
+    #[must_use]
+    pub fn measurement(&self) -> Measurement {
+        Measurement {
+            scene: self.scene.clone(),
+            readings: self.readings.clone(),
+            counters: self.counters,
+            pieces: 0,
+            provenance: self.provenance.clone(),
+            wall_seconds: self.wall_seconds,
+        }
+    }
+}
+
 /// Takes the picture of one camera of a scene.
 ///
 /// With `stop.samples` each pixel takes so many, rounded up to a power of two of at least 4. With `stop.target` a trial on some of the pixels
@@ -90,7 +105,7 @@ pub fn expose(scene: &Scene, plan: &Plan, camera: usize, stop: &Stop, seed: u64,
         (None, Some(target)) => for_target(scene, plan, camera, target, seed, watch)?,
     };
     let area = Area { x: 0, y: 0, width: columns, height: rows };
-    let rendered = scaled(scene, camera, render(scene, plan, camera, area, sampling, seed, watch)?)?;
+    let rendered = scaled(scene, camera, render(scene, plan, camera, &[area], sampling, seed, watch)?)?;
     let mut readings = read_regions(scene, plan, camera, (&rendered, area), sampling);
     readings.iter_mut().for_each(|r| r.seconds = (watch.now)() - start);
     let mut notes = Vec::new();
@@ -150,20 +165,14 @@ fn for_target(
     let stride = |n: usize| n.div_ceil(TRIAL).max(1);
     let (dx, dy) = (stride(model.columns), stride(model.rows));
     let quiet = Watch { now: watch.now, progress: &|_| {} };
+    let places = (dy / 2..model.rows).step_by(dy).flat_map(|y| (dx / 2..model.columns).step_by(dx).map(move |x| (x, y)));
+    let trial: Vec<Area> = places.map(|(x, y)| Area { x, y, width: 1, height: 1 }).collect();
     let mut sampling = Sampling { groups: 16, points: 1, set: 1 };
     loop {
         let k = student_t_quantile(0.975, sampling.groups as f64 - 1.0).unwrap_or(f64::INFINITY);
-        let (mut met, mut all) = (0usize, 0usize);
-        for row in (dy / 2..model.rows).step_by(dy) {
-            for column in (dx / 2..model.columns).step_by(dx) {
-                let area = Area { x: column, y: row, width: 1, height: 1 };
-                let found = render(scene, plan, camera, area, sampling, seed, &quiet)?;
-                for (value, u) in found.planes.iter().flatten().zip(found.plane_uncertainties.iter().flatten()) {
-                    all += 1;
-                    met += usize::from(k * u <= target * value);
-                }
-            }
-        }
+        let found = render(scene, plan, camera, &trial, sampling, seed, &quiet)?;
+        let pairs = || found.planes.iter().flatten().zip(found.plane_uncertainties.iter().flatten());
+        let (met, all) = (pairs().filter(|(value, u)| k * **u <= target * **value).count(), pairs().count());
         let enough = met as f64 >= MOST_OF_THEM * all as f64;
         if enough || sampling.samples() >= MOST_SAMPLES {
             // The numbers of the trial are not those of the picture.

@@ -53,33 +53,40 @@ pub(in crate::measurement) fn measure_regions(
     watch: &Watch<'_>,
 ) -> Result<(Vec<Reading>, Counters), EstimateError> {
     let placed = &scene.cameras[camera];
-    let (mut readings, mut counters) = (Vec::new(), Counters::default());
-    for region in &placed.regions {
-        let start = (watch.now)();
-        let area = Area { x: region.x, y: region.y, width: region.width, height: region.height };
-        let mut sampling = stop.samples.map_or(Sampling::default(), Sampling::of);
-        loop {
-            let rendered = scaled(scene, camera, render(scene, plan, camera, area, sampling, seed, watch)?)?;
-            counters.add(&rendered.counters);
-            let mut found = read_region(plan, camera, placed, region, (&rendered, area), sampling);
-            let target = stop.target.filter(|_| stop.samples.is_none()).unwrap_or(f64::INFINITY);
-            let met = |r: &Reading| r.expanded.expanded_uncertainty <= target * r.value.abs() || r.value == 0.0;
-            if found.iter().all(met) || sampling.samples() >= MOST_SAMPLES {
-                for reading in &mut found {
-                    reading.seconds = (watch.now)() - start;
-                    reading.target_met = met(reading);
-                    if !reading.target_met {
-                        reading.notes.push(format!("the target was not met within {MOST_SAMPLES} samples a pixel"));
-                    }
-                }
-                readings.extend(found);
-                break;
-            }
-            // Numbers of its own: what decided to go on is not reported.
-            sampling = Sampling { points: sampling.points * 4, set: sampling.set + 1, ..sampling };
+    let start = (watch.now)();
+    let mut counters = Counters::default();
+    let mut readings: Vec<Vec<Reading>> = vec![Vec::new(); placed.regions.len()];
+    let mut open: Vec<usize> = (0..placed.regions.len()).collect();
+    let mut sampling = stop.samples.map_or(Sampling::default(), Sampling::of);
+    let target = stop.target.filter(|_| stop.samples.is_none()).unwrap_or(f64::INFINITY);
+    let met = |r: &Reading| r.expanded.expanded_uncertainty <= target * r.value.abs() || r.value == 0.0;
+    while !open.is_empty() {
+        let areas: Vec<Area> = open.iter().map(|&k| of_region(&placed.regions[k])).collect();
+        let mut rendered = scaled(scene, camera, render(scene, plan, camera, &areas, sampling, seed, watch)?)?;
+        counters.add(&rendered.counters);
+        for (&k, area) in open.iter().zip(&areas) {
+            let own = rendered.split_off_first(area.pixels());
+            readings[k] = read_region(plan, camera, placed, &placed.regions[k], (&own, *area), sampling);
+        }
+        let last = sampling.samples() >= MOST_SAMPLES;
+        open.retain(|&k| !last && !readings[k].iter().all(met));
+        // Numbers of its own: what decided to go on is not reported.
+        sampling = Sampling { points: sampling.points * 4, set: sampling.set + 1, ..sampling };
+    }
+    let mut readings: Vec<Reading> = readings.into_iter().flatten().collect();
+    let seconds = ((watch.now)() - start) / placed.regions.len().max(1) as f64;
+    for reading in &mut readings {
+        reading.seconds = seconds;
+        reading.target_met = met(reading);
+        if !reading.target_met {
+            reading.notes.push(format!("the target was not met within {MOST_SAMPLES} samples a pixel"));
         }
     }
     Ok((readings, counters))
+}
+
+fn of_region(region: &Region) -> Area {
+    Area { x: region.x, y: region.y, width: region.width, height: region.height }
 }
 
 fn read_region(

@@ -21,7 +21,7 @@ mod mosaic;
 pub use lens::Lens;
 pub use mosaic::Mosaic;
 
-use super::DirectionalResponse;
+use super::{DirectionalResponse, Pixel};
 use crate::spectrum::Factor;
 use crate::spectrum::photometry::{WavelengthsIn, photons_per_joule};
 
@@ -60,6 +60,8 @@ pub struct Camera {
     pub mosaic: Option<Mosaic>,
     /// At least one.
     pub channels: Vec<ColourChannel>,
+    /// The electronics of a pixel; without it there are expected electrons and no frames.
+    pub pixel: Option<Pixel>,
     /// Exposure time, s.
     pub exposure_s: f64,
     /// Temperature of the sensor, °C.

@@ -3,6 +3,7 @@
 //! A file a part of the project; each holds a table of its families and is named in `all`.
 
 mod colour;
+mod emva;
 mod extreme;
 pub mod observers;
 mod quality;
@@ -31,6 +32,7 @@ pub(super) fn all() -> impl Iterator<Item = (&'static str, Family)> {
         observers::FAMILIES,
         quality::FAMILIES,
         transport::FAMILIES,
+        emva::FAMILIES,
     ]
     .into_iter()
     .flatten()
