@@ -26,14 +26,15 @@ fn chart() -> Scene {
     read_scene("scenes/colour-chart.ron", &Repository, None).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// Irradiance of both panels per unit of their density, times the étendue of a pixel, averaged over a region by midpoints.
-fn geometry(scene: &Scene, region: &Region) -> f64 {
+/// Irradiance of both panels per unit of their density, times the étendue of a pixel, averaged over a region by midpoints. The pixels of a
+/// channel lie `aside` pixels to the right of the middle of their tiles and as many below.
+fn geometry(scene: &Scene, region: &Region, aside: f64) -> f64 {
     const NODES: usize = 6;
     let camera = &scene.cameras[0].camera;
     let (v, radius) = (0.016 / (1.0 - 0.016), 0.002);
     let mut sum = 0.0;
     for k in 0..NODES * NODES {
-        let at = |k: usize, from: usize, length: usize| from as f64 + (k as f64 + 0.5) / NODES as f64 * length as f64;
+        let at = |k: usize, from: usize, length: usize| from as f64 + (k as f64 + 0.5) / NODES as f64 * length as f64 + aside;
         let (column, row) = (at(k % NODES, region.x, region.width), at(k / NODES, region.y, region.height));
         let (a, b) = ((column - 600.0) * camera.pitch_m, (420.0 - row) * camera.pitch_m);
         let point = DVec3::new(a / v, 0.0, b / v);
@@ -78,9 +79,10 @@ fn patch_signals_are_reflectance_times_lamp_times_sensitivity() {
     for region in &placed.regions {
         let element = scene.elements.iter().find(|e| e.owner == format!("patch {}", region.name)).unwrap();
         let reflectance = &scene.surfaces[element.front].reflectance;
-        let geometry = geometry(&scene, region);
         let lamp = &scene.sources[0].density;
         for (c, channel) in placed.camera.channels.iter().enumerate() {
+            // RGGB: red at the upper left of a tile, blue at the lower right, green in the middle of both.
+            let geometry = geometry(&scene, region, [-0.5, 0.0, 0.5][c]);
             let expected = placed.camera.collection_m2_s() * geometry * lamp.integral(&[&placed.camera.responsivity(c), reflectance]);
             let name = format!("camera: {}", region.name);
             let r = measured.readings.iter().find(|r| r.instrument == name && r.channel == channel.name).unwrap();

@@ -12,7 +12,6 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use etendue::estimate::frames::expose_into;
 use etendue::estimate::run::with_threads;
 use etendue::estimate::{Stop, Watch};
 use etendue::measurement::{Frame, expose};
@@ -162,26 +161,38 @@ impl Files<'_> {
         Ok(())
     }
 
-    /// Frame by frame in the memory of one.
+    /// A thread a frame: the memory of as many frames as there are threads, whatever their number.
     fn write_frames(&self, frame: &Frame, placed: &PlacedCamera, arguments: &Arguments) -> Result<(), Failure> {
         let Some(pixel) = &placed.camera.pixel else { return Ok(()) };
-        let ending = if arguments.tiff { "tiff" } else { "png" };
+        let (ending, write): (_, fn(&[u16], usize, usize) -> Result<Vec<u8>, ImageError>) =
+            if arguments.tiff { ("tiff", tiff16) } else { ("png", png16) };
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get) as u64;
+        let workers = arguments.threads.unwrap_or(cores).min(arguments.frames);
         for (k, plane) in frame.planes.iter().enumerate() {
             let expected: Vec<f32> = plane.expected_e.iter().map(|&x| x as f32).collect();
-            let mut digital = vec![0u16; expected.len()];
             let channel = if frame.planes.len() == 1 { String::new() } else { format!("-{}", file_name(&plane.name)) };
-            for number in 0..arguments.frames {
-                let exposure = Exposure {
-                    exposure_s: placed.camera.exposure_s,
-                    temperature_c: placed.camera.temperature_c,
-                    // Each channel of a camera without a mosaic has a sensor of its own.
-                    seed: arguments.seed.wrapping_add(k as u64),
-                    frame: number,
-                };
-                expose_into(pixel, &exposure, &expected, &mut digital);
-                let write = if arguments.tiff { tiff16 } else { png16 };
-                self.save(&format!("{channel}-frame-{number:04}.{ending}"), &encoded(write(&digital, frame.columns, frame.rows))?)?;
-            }
+            let work = |worker: u64| {
+                let mut digital = vec![0u16; expected.len()];
+                (worker..arguments.frames).step_by(workers as usize).try_for_each(|number| {
+                    let exposure = Exposure {
+                        exposure_s: placed.camera.exposure_s,
+                        temperature_c: placed.camera.temperature_c,
+                        // Each channel of a camera without a mosaic has a sensor of its own.
+                        seed: arguments.seed.wrapping_add(k as u64),
+                        frame: number,
+                    };
+                    pixel.expose_part(&exposure, 0, &expected, &mut digital);
+                    let bytes = encoded(write(&digital, frame.columns, frame.rows))?;
+                    self.save(&format!("{channel}-frame-{number:04}.{ending}"), &bytes)
+                })
+            };
+            let work = &work;
+            let done: Vec<Result<(), Failure>> = std::thread::scope(|scope| {
+                let threads: Vec<_> = (0..workers).map(|worker| scope.spawn(move || work(worker))).collect();
+                let stopped = |_| Err(Failure::Run("error: a thread that wrote frames stopped".to_owned()));
+                threads.into_iter().map(|thread| thread.join().unwrap_or_else(stopped)).collect()
+            });
+            done.into_iter().collect::<Result<(), Failure>>()?;
         }
         Ok(())
     }

@@ -1,4 +1,10 @@
 //! Runs of neighbouring pixels: their rays sixteen at a time, whichever pixel they belong to.
+//!
+//! ```text
+//! E_g = ⟨w L⟩_g + β_g (W₀ − ⟨w⟩_g)        W₀: mean weight of the pixel in closed form, β_g: mean radiance that the other groups found
+//! ```
+//!
+//! The other groups know nothing of the numbers of this one, so the estimate is unbiased; where a pixel sees one radiance it has no spread.
 
 use multiversion::multiversion;
 
@@ -55,21 +61,23 @@ impl Stage<'_> {
                 counters.escaped_paths += found.escaped;
                 add_paths(paths, spectral, &found.sums, &wanted, of_pixel);
             }
-            if let Some(image) = self.images.of_pixel(column, run.row) {
-                for (sums, image) in of_pixel.chunks_exact_mut(width + 1).zip(image.chunks_exact(self.plan.responsivities.len())) {
-                    for (sum, &channel) in sums.iter_mut().zip(&wanted) {
-                        *sum += points * image[channel];
-                    }
-                }
-            }
+            let image = self.images.of_pixel(column, run.row);
+            let image_of =
+                |group: usize, k: usize| image.map_or(0.0, |of_groups| of_groups[group * self.plan.responsivities.len() + wanted[k]]);
+            let known = self.view.camera.mean_weight_sr(column, run.row);
             for k in 0..width {
-                for (value, sums) in of_groups.iter_mut().zip(of_pixel.chunks_exact(width + 1)) {
+                let all = of_pixel.chunks_exact(width + 1).fold((0.0, 0.0), |(sum, weight), sums| (sum + sums[k], weight + sums[width]));
+                for (group, (value, sums)) in of_groups.iter_mut().zip(of_pixel.chunks_exact(width + 1)).enumerate() {
                     let (per, weight) = (sums[k], sums[width]);
-                    *value = match (k < planes, weight > 0.0) {
-                        (true, _) => per / points,
-                        (false, true) => per / weight,
+                    *value = match (k < planes, known, weight > 0.0) {
+                        // The image of a point source has no part in the radiance that goes with the weight.
+                        (true, Some(known), _) => {
+                            image_of(group, k) + per / points + (all.0 - per) / (all.1 - weight) * (known - weight / points)
+                        }
+                        (true, None, _) => image_of(group, k) + per / points,
+                        (false, _, true) => (points * image_of(group, k) + per) / weight,
                         // Micro-lenses that accept nothing here see nothing.
-                        (false, false) => 0.0,
+                        (false, _, false) => 0.0,
                     };
                 }
                 let found = Replicates::evaluate(&of_groups).map_or((f64::NAN, f64::NAN), |r| (r.mean, r.standard_uncertainty));

@@ -22,12 +22,19 @@ const SLACK: f64 = 1e-12;
 /// A side of an element.
 pub(super) type ElementSide = (usize, Side);
 
-/// The sides that reflect at some wavelength.
+/// The sides that reflect at some wavelength, without the insides of spheres that no camera is in: their light stays there.
 pub(super) fn reflecting_sides(scene: &Scene) -> Vec<ElementSide> {
     let black: Vec<bool> = scene.surfaces.iter().map(Surface::is_black).collect();
     let elements = scene.elements.iter().enumerate();
     let sides = elements.flat_map(|(i, e)| [(i, Side::Front, black[e.front]), (i, Side::Back, black[e.back])]);
-    sides.filter(|(_, _, black)| !black).map(|(i, side, _)| (i, side)).collect()
+    let shut = |i: usize, side: Side| match &scene.elements[i].shape {
+        Shape::Sphere(s) if side == Side::Back => scene.cameras.iter().all(|placed| {
+            let pupil = placed.camera.lens.pupil_radius_m();
+            (placed.pose.at - s.centre).length() > (s.radius_m + pupil) * (1.0 + SLACK)
+        }),
+        _ => false,
+    };
+    sides.filter(|&(i, side, black)| !black && !shut(i, side)).map(|(i, side, _)| (i, side)).collect()
 }
 
 /// Lowest and highest height of a shape over a plane, rounded to zero where it is less than the rounding of coordinates.

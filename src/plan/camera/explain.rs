@@ -31,8 +31,8 @@ impl CameraPlan {
             (None, _) => writeln!(out, "    left out  further reflections  zero: nothing is reflected"),
             (Some(_), false) => writeln!(out, "    left out  further reflections  zero: {} ({})", RULES[1].1, RULES[1].0),
             (Some(s), true) => {
-                let nodes = s.wavelengths_nm.len();
-                writeln!(out, "    kept      further reflections  paths with next-event estimation, {nodes} wavelengths")
+                let (nodes, plural) = (s.wavelengths_nm.len(), if s.wavelengths_nm.len() == 1 { "" } else { "s" });
+                writeln!(out, "    kept      further reflections  paths with next-event estimation, {nodes} wavelength{plural}")
             }
         }
     }

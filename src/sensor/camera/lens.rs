@@ -109,6 +109,18 @@ impl Lens {
         self.pupil_area_m2() / (v * v) / (1.0 + tangent2).powi(2)
     }
 
+    /// The mean of [`weight_sr`](Self::weight_sr) over the pupil, sr: the projected solid angle of a disc from a point of a parallel plane.
+    ///
+    /// `∫ v²/d⁴ dA = 2π R²v² / (S (S + a² + v² − R²)),   S² = (a² + v² + R²)² − 4 a²R²`
+    #[must_use]
+    pub fn mean_weight_sr(&self, image_m: [f64; 2]) -> f64 {
+        let v = self.image_distance_m();
+        let a2 = (image_m[0] * image_m[0] + image_m[1] * image_m[1]) / (v * v);
+        let r2 = (self.pupil_radius_m() / v).powi(2);
+        let s = ((1.0 + a2 + r2).powi(2) - 4.0 * a2 * r2).sqrt();
+        2.0 * PI * r2 / (s * (s + 1.0 + a2 - r2))
+    }
+
     /// Tangent of the angle of incidence on the sensor and its azimuth, rad, from the right towards up.
     #[must_use]
     pub fn incidence(&self, image_m: [f64; 2], pupil_m: [f64; 2]) -> (f64, f64) {
@@ -138,6 +150,22 @@ mod tests {
             let at = [slope[0] + pupil[0] / depth, slope[1] + pupil[1] / depth];
             let back = lens.image_of(at, 1.0 / depth, pupil);
             prop_assert!((back[0] - image[0]).abs() < 1e-12 && (back[1] - image[1]).abs() < 1e-12, "{back:?} against {image:?}");
+        }
+    }
+
+    #[test]
+    fn the_mean_over_the_pupil_has_a_closed_form() {
+        let lens = Lens::Thin { focal_length_m: 0.02, f_number: 0.7, focus_m: 0.5 };
+        for a in [0.0, 0.003, 0.02, 0.05] {
+            let n = 400;
+            let ring = |k: usize| {
+                let radius = lens.pupil_radius_m() * ((k / n) as f64 + 0.5).sqrt() / (n as f64).sqrt();
+                let (sin, cos) = (2.0 * PI * ((k % n) as f64 + 0.5) / n as f64).sin_cos();
+                lens.weight_sr([a, 0.0], [radius * cos, radius * sin])
+            };
+            let mean = (0..n * n).map(ring).sum::<f64>() / (n * n) as f64;
+            let found = lens.mean_weight_sr([0.6 * a, 0.8 * a]);
+            assert!((found / mean - 1.0).abs() < 1e-6, "{a}: {found} against {mean}");
         }
     }
 
