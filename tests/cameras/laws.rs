@@ -159,7 +159,7 @@ fn lights_add_up_and_bits_depend_on_the_seed_alone() {
         assert!((l.0 + r.0 - b.0).abs() <= 30.0 * joint + 1e-9 * b.0, "{i}: {l:?} + {r:?} against {b:?}");
     }
     let total = |f: &Frame| {
-        let of = |values: &[f64]| values.iter().fold(0.0, |sum, x| sum + x);
+        let of = |values: &[f64]| values.iter().sum::<f64>();
         let squares: Vec<f64> = f.planes[0].standard_uncertainty_e.iter().map(|u| u * u).collect();
         (of(&f.planes[0].expected_e), of(&squares).sqrt())
     };
