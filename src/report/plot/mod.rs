@@ -59,9 +59,9 @@ mod text;
 pub mod v_lambda;
 pub mod wavelength_colour;
 
+pub use self::png::png;
 pub use chart::Chart;
 pub use error::PlotError;
-pub use png::png;
 pub use style::{SIDES_PX, Size, Style, Theme};
 pub use svg::svg;
 pub use table::csv;
