@@ -172,6 +172,8 @@ fn laws() -> Vec<Law> {
             near: vec![("work plane", 8 * 20 + 12, "E_v", 531.1, 0.003)],
             ..law("office.ron", [256, 256], &[])
         },
+        // Patch by patch against direct integration: tests/cameras/chart.rs.
+        law("colour-chart.ron", [8, 16], &[]),
         law("mesh.ron", [131072, 65536], &[]),
         law("ten-instruments.ron", [8192, 8192], &[]),
         Law {

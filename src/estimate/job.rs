@@ -121,7 +121,8 @@ impl Job<'_> {
             }),
             Job::Sky { .. } => Ok(sky::sample(world, None, receiver, stream, (first, count), progress.share_clear)),
             Job::Paths { scene, .. } => {
-                let out = trace(scene, receiver, stream, first, count);
+                let streams: [Stream; REPLICATES] = std::array::from_fn(|r| stream.child(r as u64));
+                let out = trace(scene, receiver, &streams, (first, count));
                 if out.endless {
                     return Err(EstimateError::Endless { instrument: String::new() });
                 }

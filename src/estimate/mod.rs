@@ -15,6 +15,7 @@
 //! | `direct.rs` | direct light of a source that may be hidden |
 //! | `sky.rs` | direct light of an environment that may be hidden |
 //! | `paths/` | reflected light |
+//! | `camera/` | what the pixels of a camera receive |
 //! | `job.rs`, `lanes.rs` | what these three have in common |
 //! | `task.rs` | what is to be done for an instrument |
 //! | `campaign.rs` | a run, batch by batch |
@@ -28,6 +29,7 @@
 
 mod all_round;
 mod batch;
+pub mod camera;
 mod campaign;
 pub mod closed_form;
 mod deterministic;
@@ -91,7 +93,7 @@ pub struct Counters {
 }
 
 impl Counters {
-    fn add(&mut self, other: &Counters) {
+    pub(crate) fn add(&mut self, other: &Counters) {
         self.rays += other.rays;
         self.samples += other.samples;
         self.bvh_nodes = self.bvh_nodes.max(other.bvh_nodes);

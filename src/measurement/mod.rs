@@ -21,6 +21,7 @@
 mod companion;
 mod coordinates;
 mod electronics;
+pub mod frame;
 mod header;
 pub mod ideal;
 mod own_uncertainty;
@@ -28,6 +29,7 @@ mod provenance;
 mod reading;
 
 pub use electronics::DisplayReading;
+pub use frame::{Frame, Plane, expose};
 pub use header::CheckpointHeader;
 pub use ideal::{Cause, IdealReading, Part, add_ideal};
 pub use provenance::{Difference, Provenance, in_words};

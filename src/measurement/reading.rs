@@ -3,6 +3,7 @@
 use super::Provenance;
 use super::coordinates::Coordinates;
 use super::electronics::{DisplayReading, displayed};
+use super::frame::measure_regions;
 use super::ideal::IdealReading;
 use super::own_uncertainty::OwnUncertainty;
 use crate::estimate::journal::{Journal, Unrecorded};
@@ -79,7 +80,7 @@ pub struct Measurement {
     pub wall_seconds: f64,
 }
 
-/// Reads every instrument of a scene according to a plan.
+/// Reads every instrument of a scene, and the regions of its cameras, according to a plan.
 ///
 /// # Errors
 /// When light is never absorbed, so that a reading is not finite, or a reading is beyond the range of numbers.
@@ -118,6 +119,12 @@ pub fn measure_with(
             }
         }
     }
+    let mut counters = estimates.counters;
+    for camera in 0..scene.cameras.len() {
+        let (found, counted) = measure_regions(scene, plan, camera, stop, seed, watch)?;
+        readings.extend(found);
+        counters.add(&counted);
+    }
     let mut provenance = Provenance::of(scene, plan, stop, seed);
     if stop.budget_seconds.is_some() {
         provenance.rounds = estimates.rounds;
@@ -125,7 +132,7 @@ pub fn measure_with(
     Ok(Measurement {
         scene: scene.title.clone(),
         readings,
-        counters: estimates.counters,
+        counters,
         pieces: estimates.pieces,
         provenance,
         wall_seconds: (watch.now)() - start,

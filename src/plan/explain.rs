@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Bound, Method, Plan, Term, TermId, Transport};
+use super::{Bound, CameraPlan, Method, Plan, Term, TermId, Transport};
 use crate::geometry::shape::Shape;
 use crate::metrology::rounding::format_significant;
 use crate::scene::Scene;
@@ -23,7 +23,11 @@ impl Plan {
     fn write(&self, scene: &Scene, out: &mut String) -> std::fmt::Result {
         let all = self.kept.len() + self.omitted.len();
         let (how, kept) = (if self.naive { "naive plan" } else { "plan" }, self.kept.len());
-        writeln!(out, "{how}: {kept} of {all} terms kept (instrument channel × source × direct or reflected)")?;
+        if all > 0 || scene.cameras.is_empty() {
+            writeln!(out, "{how}: {kept} of {all} terms kept (instrument channel × source × direct or reflected)")?;
+        } else {
+            writeln!(out, "{how}: the scene has cameras and no instrument")?;
+        }
         if !self.without.is_empty() {
             writeln!(out, "switched off: {}", self.without.join(", "))?;
         }
@@ -44,13 +48,16 @@ impl Plan {
             let s = if named.len() == 1 { "" } else { "s" };
             write!(out, "\ninstrument{s} {}: {sensor}\n{body}", listed(&named))?;
         }
+        for (plan, placed) in self.cameras.iter().zip(&scene.cameras) {
+            plan.write(scene, placed, out)?;
+        }
         let mut not_built = Vec::new();
-        if !self.needs_rays {
+        if !self.needs_rays && scene.cameras.is_empty() {
             not_built.push("rays, bounding volume hierarchy: no term that is kept needs a ray");
         } else if !scene.elements.iter().any(|e| matches!(e.shape, Shape::Mesh(_))) {
             not_built.push("bounding volume hierarchy: the scene has no mesh");
         }
-        if !self.kept.iter().any(|t| t.method == Method::Paths) {
+        if !self.kept.iter().any(|t| t.method == Method::Paths) && !self.cameras.iter().any(CameraPlan::needs_paths) {
             not_built.push("paths, spectral nodes: no reflected light is sampled");
         }
         for (k, what) in not_built.iter().enumerate() {

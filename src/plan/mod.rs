@@ -10,6 +10,7 @@
 //! naive ones again; a rule that breaks this stops the run.
 
 mod acting;
+pub mod camera;
 mod check;
 pub mod choose;
 mod explain;
@@ -18,6 +19,7 @@ pub(crate) mod sight;
 pub mod spectral;
 mod term;
 
+pub use camera::CameraPlan;
 pub use check::PlanError;
 pub use term::{Bound, Method, Narrowing, Omission, Term, TermId, Transport, Visibility};
 
@@ -48,6 +50,8 @@ pub struct Plan {
     pub spectral: Vec<Option<SpectralPlan>>,
     /// Whether rays are traced at all, and so whether the surfaces are prepared for them.
     pub needs_rays: bool,
+    /// How each camera of the scene is rendered.
+    pub cameras: Vec<CameraPlan>,
     /// Rules that were switched off by name.
     pub without: Vec<String>,
 }
@@ -75,6 +79,7 @@ impl Plan {
             expected.verify(&plan, "choose")?;
         }
         plan.spectral = spectral::plan_wavelengths(scene, &plan);
+        plan.cameras = CameraPlan::of(scene, options);
         plan.needs_rays = plan.kept.iter().any(Term::needs_rays);
         Ok(plan)
     }
@@ -92,7 +97,16 @@ impl Plan {
                 }
             }
         }
-        Plan { naive: true, kept, omitted: Vec::new(), narrowed: Vec::new(), spectral: Vec::new(), needs_rays: true, without: Vec::new() }
+        Plan {
+            naive: true,
+            kept,
+            omitted: Vec::new(),
+            narrowed: Vec::new(),
+            spectral: Vec::new(),
+            needs_rays: true,
+            cameras: Vec::new(),
+            without: Vec::new(),
+        }
     }
 
     /// Moves the terms that a rule names to the omitted ones.
@@ -117,5 +131,6 @@ impl Plan {
 /// Every name that `--without` accepts: rules that omit, then ways to choose.
 #[must_use]
 pub fn rule_names() -> Vec<&'static str> {
-    omit::RULES.iter().map(|r| r.name).chain(choose::CHOICES.iter().map(|c| c.name)).collect()
+    let names = omit::RULES.iter().map(|r| r.name).chain(choose::CHOICES.iter().map(|c| c.name));
+    names.chain(camera::RULES.iter().map(|(name, _)| *name)).collect()
 }

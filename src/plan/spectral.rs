@@ -45,7 +45,12 @@ fn plan_instrument(scene: &Scene, plan: &Plan, instrument: usize) -> Option<Spec
     if kept.is_empty() {
         return None;
     }
-    let channels = &scene.instruments[instrument].sensor.channels;
+    let responsivities: Vec<&Factor> = scene.instruments[instrument].sensor.channels.iter().map(|c| &c.responsivity).collect();
+    Some(wavelengths_of(scene, &responsivities, &kept, plan.naive))
+}
+
+/// Nodes, groups and weights for the pairs of channel and source whose reflected light is `kept`, at least one.
+pub(super) fn wavelengths_of(scene: &Scene, responsivities: &[&Factor], kept: &[(usize, usize)], naive: bool) -> SpectralPlan {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let mut sources: Vec<usize> = kept.iter().map(|&(_, s)| s).collect();
     sources.sort_unstable();
@@ -60,12 +65,12 @@ fn plan_instrument(scene: &Scene, plan: &Plan, instrument: usize) -> Option<Spec
     let everywhere = Factor::Constant(1.0);
     let mut terms: Vec<(&Density, &Factor)> = Vec::new();
     for group in &groups {
-        for (c, channel) in channels.iter().enumerate() {
+        for (c, responsivity) in responsivities.iter().enumerate() {
             if has(c, group) {
                 // The naive plan carries every wavelength of the source, seen or not, unless there is no end to them.
                 let density = &scene.sources[group[0]].density;
                 let bounded = density.support().hull().is_some_and(|(_, high)| high.is_finite());
-                terms.push((density, if plan.naive && bounded { &everywhere } else { &channel.responsivity }));
+                terms.push((density, if naive && bounded { &everywhere } else { responsivity }));
             }
         }
     }
@@ -76,15 +81,15 @@ fn plan_instrument(scene: &Scene, plan: &Plan, instrument: usize) -> Option<Spec
     used.dedup();
     let in_use: Vec<&Factor> = used.iter().map(|&s| reflectances[s]).collect();
     let nodes = SpectralNodes::compile(&terms, &in_use, MAX_NODES, TARGET_RESIDUAL);
-    let weights = channels
+    let weights = responsivities
         .iter()
         .enumerate()
-        .map(|(c, channel)| {
+        .map(|(c, responsivity)| {
             groups
                 .iter()
                 .map(|group| {
                     if has(c, group) {
-                        nodes.weights(&scene.sources[group[0]].density, &channel.responsivity)
+                        nodes.weights(&scene.sources[group[0]].density, responsivity)
                     } else {
                         vec![0.0; nodes.wavelengths_nm().len()]
                     }
@@ -92,11 +97,11 @@ fn plan_instrument(scene: &Scene, plan: &Plan, instrument: usize) -> Option<Spec
                 .collect()
         })
         .collect();
-    Some(SpectralPlan {
+    SpectralPlan {
         wavelengths_nm: nodes.wavelengths_nm().to_vec(),
         groups,
         weights,
         reflectances: reflectances.iter().map(|r| nodes.sample(r)).collect(),
         residual: nodes.residual(),
-    })
+    }
 }

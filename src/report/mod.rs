@@ -16,6 +16,7 @@
 //! | `stability/` | sweeps of numerical stability |
 //! | `emva/` | figures of EMVA 1288 as text and JSON, descriptors of frames |
 //! | `image/` | frames as PNG, TIFF, NPY and EXR (feature `image`) |
+//! | `picture/` | frames for the eye: a preview, luminance in false colours |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
 pub mod convergence;
@@ -28,6 +29,7 @@ mod ideal;
 pub mod image;
 pub mod json;
 pub mod lecture;
+pub mod picture;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod savings;

@@ -14,6 +14,7 @@
 //! | `spectrum_argument` | one spectrum or factor given as text |
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
+//! | `camera_reader` | cameras and their files |
 //! | `pixel_reader` | camera pixels |
 //! | `responsivity_reader`, `readout_reader` | their curves with units and uncertainties, their electronics |
 //! | `reader` | the scene as a whole |
@@ -21,6 +22,8 @@
 
 mod acceptance_reader;
 mod adjustment;
+pub mod camera;
+mod camera_reader;
 mod channel_reader;
 mod checks;
 mod decode;
@@ -52,6 +55,7 @@ mod syntax;
 #[cfg(test)]
 mod tests;
 
+pub use camera::{PlacedCamera, Region};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};
@@ -89,8 +93,10 @@ pub struct Scene {
     pub surfaces: Vec<Surface>,
     /// What emits.
     pub sources: Vec<Source>,
-    /// What is read, at least one instrument.
+    /// What is read; at least one instrument or camera.
     pub instruments: Vec<Instrument>,
+    /// What takes pictures.
+    pub cameras: Vec<PlacedCamera>,
     /// How curve files were understood: converted units, decimal commas, gaps. No problem, but to be said.
     pub remarks: Vec<String>,
     /// A hash of every file that the scene was read from; zero for a scene made in memory.

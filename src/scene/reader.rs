@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Scene;
+use super::camera_reader::read_camera;
 use super::checks;
 use super::decode::Value;
 use super::diagnostic::{Diagnostic, Diagnostics};
@@ -14,7 +15,7 @@ use super::reading::Reading;
 use super::source_reader::read_source;
 use super::surface_reader::Surfaces;
 
-const KEYS: [&str; 5] = ["title", "surfaces", "objects", "sources", "instruments"];
+const KEYS: [&str; 6] = ["title", "surfaces", "objects", "sources", "instruments", "cameras"];
 
 /// Reads a scene and all files that it mentions.
 ///
@@ -95,13 +96,18 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
     }
     let mut names = Names::default();
     let mut poses_left = MOST_POSES;
-    let none = instruments.is_empty();
+    let cameras = items("cameras", reading);
+    let none = instruments.is_empty() && cameras.is_empty();
     for item in instruments {
         let name = names.take(&item, "instrument", reading);
         if let Some(instrument) = read_instrument(&item, name, &mut poses_left, reading) {
             scene.instruments.push(instrument);
             places.instruments.push(item);
         }
+    }
+    for item in cameras {
+        let name = names.take(&item, "camera", reading);
+        scene.cameras.extend(read_camera(&item, name, reading));
     }
     if none {
         let example =
@@ -135,7 +141,7 @@ impl Names {
         let Kind::Struct { body: Body::Named(fields), .. } = &item.node.kind else { return Some("") };
         let Some(field) = fields.iter().find(|field| field.name == "name") else {
             let span = item.node.span.start..item.node.span.start + 1;
-            let article = if what == "source" { "a" } else { "an" };
+            let article = if matches!(what, "source" | "camera") { "a" } else { "an" };
             item.problem_at(&span, &mut reading.problems, format!("{article} {what} has no `name`"), "add `name: \"…\"`");
             return None;
         };

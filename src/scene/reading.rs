@@ -10,6 +10,7 @@ use super::files::{FileProblem, Files, LONGEST_DOCUMENT_BYTES, MOST_BYTES, hashe
 use crate::geometry::mesh::Mesh;
 use crate::naming::{by_distance, nearest};
 use crate::sensor::Sensor;
+use crate::sensor::camera::Camera;
 use crate::spectrum::file::{CurveFile, Meaning};
 
 /// Most files that are offered instead of a missing one.
@@ -44,6 +45,8 @@ pub(super) struct Reading<'f> {
     pub(super) remarks: Vec<String>,
     /// Sensors by path; none for one that has problems.
     pub(super) sensors: BTreeMap<String, Option<Arc<Sensor>>>,
+    /// Cameras by path; none for one that has problems.
+    pub(super) cameras: BTreeMap<String, Option<Arc<Camera>>>,
     /// Meshes by path and placement; none for one that has problems.
     pub(super) meshes: BTreeMap<(String, [u64; 10]), Option<Arc<Mesh>>>,
 }
@@ -60,6 +63,7 @@ impl<'f> Reading<'f> {
             curves: BTreeMap::new(),
             remarks: Vec::new(),
             sensors: BTreeMap::new(),
+            cameras: BTreeMap::new(),
             meshes: BTreeMap::new(),
         }
     }

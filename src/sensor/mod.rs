@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | aperture | `aperture.rs` | where light enters: `A` |
 //! | acceptance | `acceptance.rs` | from which directions, and how well: `R(ω)` |
+//! | camera | `camera/` | a lens and an array of pixels |
 //! | pixel | `pixel/`, `noise/` | charge, gain, noise and digital numbers of a camera pixel |
 //! | head | `head.rs` | the weight `w(ω)` of receptors that see all round |
 //! | spot | `spot.rs` | the field of a luminance meter: R depends on the point of the pupil as well |
@@ -16,6 +17,7 @@
 
 pub mod acceptance;
 pub mod aperture;
+pub mod camera;
 pub mod channel;
 pub mod head;
 pub mod noise;

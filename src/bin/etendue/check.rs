@@ -15,8 +15,12 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = disk::scene(&arguments.scene, arguments.root.as_deref())?;
     let count = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
+    let cameras = match scene.cameras.len() {
+        0 => String::new(),
+        n => format!(", {}", count(n, "camera", "cameras")),
+    };
     print(&format!(
-        "ok: {}, {}, {}\n",
+        "ok: {}, {}, {}{cameras}\n",
         count(scene.sources.len(), "source", "sources"),
         count(scene.elements.len(), "piece of surface", "pieces of surface"),
         count(scene.instruments.len(), "instrument", "instruments"),

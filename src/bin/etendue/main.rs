@@ -18,6 +18,8 @@ mod datasheet;
 mod disk;
 mod equation;
 mod explain;
+#[cfg(feature = "image")]
+mod expose;
 mod list;
 mod measure;
 mod merge;
@@ -54,6 +56,9 @@ enum Command {
     Datasheet(datasheet::Arguments),
     /// What will be computed, what is left out, and why.
     Explain(explain::Arguments),
+    #[cfg(feature = "image")]
+    /// Take the picture of a camera of a scene: expected electrons, raw frames, previews, regions.
+    Expose(expose::Arguments),
     /// Equations of the lecture: list them, or compute one from its inputs.
     Equation(equation::Arguments),
     /// True error and claimed uncertainty against run time.
@@ -97,6 +102,8 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Datasheet(arguments) => datasheet::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        #[cfg(feature = "image")]
+        Command::Expose(arguments) => expose::run(&arguments),
         Command::Equation(arguments) => equation::run(&arguments),
         Command::Converge(arguments) => converge::run(&arguments),
         Command::Coverage(arguments) => coverage::run(&arguments),

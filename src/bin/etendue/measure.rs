@@ -94,6 +94,22 @@ fn part(given: &str) -> Result<Share, String> {
     share.ok_or_else(|| "a share k/K with 1 ≤ k ≤ K, such as 2/3: the shares 1/3, 2/3 and 3/3 are the whole".to_owned())
 }
 
+/// Says which cameras have no region to be read; with nothing else to read that is a failure.
+fn regions_to_read(scene: &Scene, file: &str) -> Result<(), Failure> {
+    let help = format!(
+        "`etendue expose {file} --out DIR` takes the picture; `regions: {{ \"patch\": (x: 10, y: 12, width: 8, height: 8) }}` is read here"
+    );
+    let without: Vec<&str> = scene.cameras.iter().filter(|c| c.regions.is_empty()).map(|c| c.name.as_str()).collect();
+    if scene.instruments.is_empty() && without.len() == scene.cameras.len() {
+        let message = "error: the scene has cameras without regions and no instrument, so there is nothing to read";
+        return Err(Failure::Input(format!("{message}\n  = help: {help}")));
+    }
+    for name in without {
+        complain(&format!("note: the camera `{name}` has no region and is not read\n  = help: {help}"));
+    }
+    Ok(())
+}
+
 /// A scene, how it is planned, and what makes a run of it.
 pub(crate) struct Run<'a> {
     pub(crate) scene: &'a Scene,
@@ -141,6 +157,7 @@ pub(crate) fn failed(e: &EstimateError) -> Failure {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     arguments.agree()?;
     let scene = disk::scene(&arguments.scene, arguments.root.as_deref())?;
+    regions_to_read(&scene, &arguments.scene)?;
     let plan = arguments.plan.plan(&scene)?;
     let stop = Stop {
         // A budget of time alone is used up.

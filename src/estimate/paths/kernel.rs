@@ -5,9 +5,8 @@ use std::f64::consts::PI;
 use multiversion::multiversion;
 
 use super::prepare::PathScene;
+use super::start::Start;
 use super::{ENDLESS, ROULETTE_AFTER};
-use crate::estimate::REPLICATES;
-use crate::estimate::receiver::Receiver;
 use crate::geometry::rays::{LANES, NONE, Rays, Vectors};
 use crate::math::DVec3;
 use crate::math::frame::world_from_local;
@@ -17,7 +16,7 @@ use crate::math::sample::sample_cosine_hemisphere;
 /// What a run of paths adds up.
 #[derive(Clone, Debug)]
 pub(in crate::estimate) struct PathSums {
-    /// `REPLICATES` × width sums.
+    /// Replicates × width sums.
     pub(in crate::estimate) sums: Vec<f64>,
     /// Connections to the lights of each group as if nothing stood in their way: the scale of what may have been missed.
     pub(in crate::estimate) potential: Vec<f64>,
@@ -29,17 +28,18 @@ pub(in crate::estimate) struct PathSums {
     pub(in crate::estimate) endless: bool,
 }
 
-/// Traces the points `first .. first + count` of every replicate.
+/// Traces the points `first .. first + count` of every stream, a stream a replicate.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx2+fma", "x86_64+avx2+fma"))]
-pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>, stream: Stream, first: u32, count: u32) -> PathSums {
+pub(in crate::estimate) fn trace<S: Start>(scene: &PathScene<'_>, start: &S, streams: &[Stream], (first, count): (u32, u32)) -> PathSums {
     let row = scene.row;
     let width = scene.groups * row;
-    let mut out = PathSums { sums: vec![0.0; REPLICATES * width], potential: vec![0.0; scene.groups], rays: 0, escaped: 0, endless: false };
-    let replicate_streams: [Stream; REPLICATES] = std::array::from_fn(|r| stream.child(r as u64));
-    let items = u64::from(count) * REPLICATES as u64;
+    let mut out =
+        PathSums { sums: vec![0.0; streams.len() * width], potential: vec![0.0; scene.groups], rays: 0, escaped: 0, endless: false };
+    let replicates = streams.len() as u64;
+    let items = u64::from(count) * replicates;
     let mut next = 0u64;
 
-    let mut block = Block::new(stream, row);
+    let mut block = Block::new(streams[0], row);
     let mut rays = Rays::none();
     let mut shadow = Rays::none();
     loop {
@@ -47,8 +47,8 @@ pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>,
             if block.alive[lane] || next == items {
                 continue;
             }
-            let replicate = (next % REPLICATES as u64) as usize;
-            block.start(lane, replicate, replicate_streams[replicate], first + (next / REPLICATES as u64) as u32, receiver);
+            let replicate = (next % replicates) as usize;
+            block.start(lane, replicate, streams[replicate], first + (next / replicates) as u32, start);
             next += 1;
         }
         if !block.alive.iter().any(|&a| a) {
@@ -72,11 +72,13 @@ pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>,
                 continue;
             }
             if block.vertex[lane] == 0 {
-                let (point, direction, weight) = receiver.look([u[0][lane], u[1][lane], u[2][lane], u[3][lane]]);
-                block.point.set(lane, point);
-                rays.direction.set(lane, direction);
-                block.weight[lane] = weight;
+                let ray = start.ray(std::array::from_fn(|d| u[d][lane]));
+                block.point.set(lane, ray.origin);
+                rays.direction.set(lane, ray.direction);
+                block.weight[lane] = ray.weight;
                 block.alive[lane] = block.weight[lane] > 0.0;
+            } else if block.vertex[lane] >= scene.most_reflections && scene.skies.is_empty() {
+                block.alive[lane] = false;
             } else if block.vertex[lane] > ROULETTE_AFTER {
                 let p = block.survival[lane];
                 block.alive[lane] = block.roulette(lane) < p;
@@ -94,10 +96,14 @@ pub(in crate::estimate) fn trace(scene: &PathScene<'_>, receiver: &Receiver<'_>,
                 continue;
             }
             let element = hits.element[lane];
+            if element != NONE && block.vertex[lane] >= scene.most_reflections {
+                block.alive[lane] = false;
+                continue;
+            }
             if element == NONE {
                 out.escaped += 1;
                 block.alive[lane] = false;
-                if block.vertex[lane] > 0 {
+                if block.vertex[lane] > scene.sky_known_to {
                     for &group in &scene.skies {
                         // (ρ/π) cosθ over the density cosθ/π leaves ρ; the environment's radiance is the unit.
                         block.add(lane, group, block.weight[lane], width, row, &mut out.sums);
@@ -144,6 +150,7 @@ fn connect(scene: &PathScene<'_>, block: &mut Block, shadow: &mut Rays, u: &[[f6
     if scene.lights.is_empty() {
         return;
     }
+    let first = scene.first_lights.as_ref().unwrap_or(&scene.lights);
     let mut arrives = [0.0; LANES];
     let mut group = [0u32; LANES];
     let mut any = false;
@@ -152,7 +159,11 @@ fn connect(scene: &PathScene<'_>, block: &mut Block, shadow: &mut Rays, u: &[[f6
         if !block.alive[lane] || block.vertex[lane] == 0 {
             continue;
         }
-        let light = scene.lights.sample(block.point.get(lane), [u[2][lane], u[3][lane]]);
+        let lights = if block.vertex[lane] == 1 { first } else { &scene.lights };
+        if lights.is_empty() {
+            continue;
+        }
+        let light = lights.sample(block.point.get(lane), [u[2][lane], u[3][lane]]);
         let irradiance = light.weight * block.normal.get(lane).dot(light.to);
         if light.weight > 0.0 && irradiance > 0.0 {
             // ρ/π times the irradiance; ρ is in the carried spectrum.
@@ -224,7 +235,7 @@ impl Block {
     }
 
     #[inline(always)]
-    fn start(&mut self, lane: usize, replicate: usize, stream: Stream, index: u32, receiver: &Receiver<'_>) {
+    fn start(&mut self, lane: usize, replicate: usize, stream: Stream, index: u32, start: &impl Start) {
         self.alive[lane] = true;
         self.stream[lane] = stream;
         self.replicate[lane] = replicate;
@@ -232,9 +243,8 @@ impl Block {
         self.vertex[lane] = 0;
         self.lossless[lane] = 0;
         self.point.set(lane, DVec3::ZERO);
-        self.normal.set(lane, receiver.pose.normal);
-        self.element[lane] = receiver.resting_on;
-        self.part[lane] = receiver.resting_part;
+        self.normal.set(lane, start.normal());
+        [self.element[lane], self.part[lane]] = start.leaves();
     }
 
     /// A number of its own for the decision to go on, independent of the points.

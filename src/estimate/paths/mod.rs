@@ -22,10 +22,12 @@
 mod bright_spot;
 mod kernel;
 mod prepare;
+mod start;
 
 pub(super) use bright_spot::BrightSpot;
 pub(super) use kernel::trace;
 pub(super) use prepare::PathScene;
+pub(super) use start::{FirstRay, Start};
 
 /// Reflections after which a path may end by chance.
 const ROULETTE_AFTER: u32 = 3;

@@ -30,6 +30,12 @@ pub(in crate::estimate) struct PathScene<'a> {
     pub(super) groups: usize,
     /// Lamps that stand close to a reflecting surface.
     pub(super) beside: Vec<Beside>,
+    /// The lights that the first surface is connected to, where they are not all.
+    pub(super) first_lights: Option<Lights>,
+    /// Reflections up to which the light of the environment comes from elsewhere.
+    pub(super) sky_known_to: u32,
+    /// Reflections after which a path ends.
+    pub(super) most_reflections: u32,
 }
 
 impl<'a> PathScene<'a> {
@@ -70,7 +76,37 @@ impl<'a> PathScene<'a> {
             row,
             groups: spectral.groups.len(),
             beside,
+            first_lights: None,
+            sky_known_to: 0,
+            most_reflections: u32::MAX,
         }
+    }
+
+    /// The same for paths whose first reflection is known of all sources but those that are `sampled`, and that end there unless light goes on.
+    pub(in crate::estimate) fn after_first(
+        mut self,
+        scene: &'a Scene,
+        spectral: &SpectralPlan,
+        sampled: &dyn Fn(usize) -> bool,
+        goes_on: bool,
+    ) -> Self {
+        let mut lit = Vec::new();
+        for (group, sources) in spectral.groups.iter().enumerate() {
+            for &s in sources.iter().filter(|&&s| sampled(s)) {
+                let source = &scene.sources[s];
+                lit.push((source, group as u32, extent(scene, source)));
+            }
+        }
+        let sky = lit.iter().any(|(source, _, _)| matches!(source.emitter, Emitter::Environment));
+        self.first_lights = Some(Lights::new(scene, lit));
+        self.sky_known_to = u32::from(!sky);
+        if !goes_on {
+            self.most_reflections = 1;
+            if !sky {
+                self.skies.clear();
+            }
+        }
+        self
     }
 
     /// Numbers that a replicate adds up: groups × nodes of a padded row.
