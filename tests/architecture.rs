@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Most lines of a file.
 const LONGEST: usize = 400;
 
-const LAYERS: [(&str, usize); 18] = [
+const LAYERS: [(&str, usize); 19] = [
     ("quantity", 0),
     ("metrology", 0),
     ("math", 0),
@@ -23,13 +23,16 @@ const LAYERS: [(&str, usize); 18] = [
     ("plan", 4),
     ("estimate", 5),
     ("measurement", 6),
+    ("calibration", 7),
     ("characterization", 7),
     ("study", 8),
     ("report", 9),
 ];
 
 /// Where a foreign crate may be named.
-const DOORS: [(&str, &[&str]); 15] = [
+const DOORS: [(&str, &[&str]); 17] = [
+    ("nalgebra", &["src/calibration/"]),
+    ("clarabel", &["src/calibration/non_negative.rs"]),
     ("glam", &["src/math/mod.rs"]),
     ("obvhs", &["src/geometry/bvh/"]),
     ("statrs", &["src/metrology/distribution"]),
