@@ -42,6 +42,7 @@ const DOORS: [(&str, &[&str]); 17] = [
         "serde",
         &[
             "src/report/json.rs",
+            "src/report/calibration/json.rs",
             "src/report/lecture/json.rs",
             "src/report/spectrum/json.rs",
             "src/report/verify/json.rs",
@@ -53,6 +54,7 @@ const DOORS: [(&str, &[&str]); 17] = [
         "serde_json",
         &[
             "src/report/json.rs",
+            "src/report/calibration/json.rs",
             "src/report/lecture/json.rs",
             "src/report/spectrum/json.rs",
             "src/report/verify/json.rs",

@@ -15,6 +15,8 @@
 //! | [`evidence`] | which smoothness and which scale the readings speak for, and the classic rules beside |
 //! | [`posterior`] | curve, covariance, averaging kernels |
 //! | [`non_negative`] | the most plausible curve that is nowhere negative |
+//! | [`propagation`] | what a curve is used for, with its uncertainty |
+//! | [`suggestion`] | what a further reading would take from the covariance |
 //! | [`fit`] | all of it, from exposures and readings to a fitted curve |
 //!
 //! Works on real and on simulated readings alike; knows no scenes and no rays.
@@ -26,6 +28,8 @@ mod low_rank;
 pub mod non_negative;
 pub mod posterior;
 pub mod prior;
+pub mod propagation;
+pub mod suggestion;
 
 pub use exposures::{Exposures, Readings};
 pub use fit::{CalibrationError, Chooser, FitOptions, Fitted, FittedCurve, fit};

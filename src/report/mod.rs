@@ -5,6 +5,7 @@
 //! | `text.rs` | a table for a person |
 //! | `json.rs` | everything, for programs; numbers keep all their digits |
 //! | `csv.rs` | a row a reading, for spreadsheets |
+//! | `calibration/` | fitted curves: a page, JSON, CSV with covariance, a sensor file |
 //! | `convergence/` | error against run time, in the same three forms; reads references |
 //! | `lecture/` | equations of the lecture and the table of quantities, as text and JSON |
 //! | `spectrum/` | the quantities of one spectrum, in the same three forms |
@@ -12,6 +13,7 @@
 //! | `stability/` | sweeps of numerical stability |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
+pub mod calibration;
 pub mod convergence;
 pub mod csv;
 pub mod json;

@@ -15,15 +15,19 @@
 //! | `object_reader`, `source_reader`, `instrument_reader` | the items of a scene |
 //! | `sensor_reader`, `channel_reader`, `adjustment`, `observer_reader`, `directional_table` | sensor files |
 //! | `reader` | the scene as a whole |
+//! | `calibration`, `calibration_reader`, `exposure_reader` | calibration files: a bench and what is put in front of the sensor |
 //! | `checks` | what only the scene as a whole can show |
 
 mod adjustment;
+pub mod calibration;
+mod calibration_reader;
 mod channel_reader;
 mod checks;
 mod decode;
 pub mod diagnostic;
 mod directional_table;
 pub mod document;
+mod exposure_reader;
 mod factor_range;
 pub mod files;
 pub mod instrument;
@@ -46,6 +50,8 @@ mod syntax;
 #[cfg(test)]
 mod tests;
 
+pub use calibration::{Calibration, Exposure, Noise};
+pub use calibration_reader::read_calibration;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};

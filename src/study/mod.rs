@@ -2,12 +2,14 @@
 //!
 //! | module | what it asks |
 //! |---|---|
+//! | [`calibrate`] | which responsivity a campaign finds, how well, and what it does not see |
 //! | [`converge`] | true error and claimed uncertainty against run time |
 //! | [`stability`] | where readings of stiff and extreme scenes begin to fail |
 //! | [`verify`] | does every reference case come out, on this machine |
 //!
 //! A study measures like anybody else and looks only at readings; the clocks are lent by the shell.
 
+pub mod calibrate;
 pub mod converge;
 pub mod stability;
 pub mod verify;

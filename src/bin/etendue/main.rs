@@ -10,6 +10,7 @@
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
+mod calibrate;
 mod check;
 mod checkpoint;
 mod converge;
@@ -43,6 +44,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Responsivity curves from readings, with their uncertainty, and what the readings do not see.
+    Calibrate(calibrate::Arguments),
     /// Every problem of a scene file, or "ok".
     Check(check::Arguments),
     /// What will be computed, what is left out, and why.
@@ -80,6 +83,7 @@ enum Failure {
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
+        Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Equation(arguments) => equation::run(&arguments),
