@@ -22,6 +22,8 @@
 use nalgebra::DMatrix;
 
 use super::low_rank;
+use crate::spectrum::Factor;
+use crate::spectrum::library::{self, LookupError};
 
 /// Which family of curves is plausible.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +36,36 @@ pub enum PriorKind {
         /// `components[channel][component][node]`.
         components: Vec<Vec<Vec<f64>>>,
     },
+}
+
+impl PriorKind {
+    /// Cameras with channels for red, green and blue, in this order: the components of the library on these nodes, nm. Beyond 400 nm and 700 nm, where
+    /// the components end, they fall like a bell curve.
+    ///
+    /// # Errors
+    /// If the table of components cannot be read, which the tests of the library exclude.
+    pub fn camera(nodes_nm: &[f64]) -> Result<PriorKind, LookupError> {
+        let of_channel = |channel: &str| {
+            let of_component = |i: usize| {
+                let curve = library::factor(&format!("Camera components {channel} {i}"))?;
+                Ok(nodes_nm.iter().map(|nm| beyond_table(&curve, *nm)).collect())
+            };
+            (1..=CAMERA_COMPONENTS).map(of_component).collect::<Result<Vec<Vec<f64>>, LookupError>>()
+        };
+        Ok(PriorKind::Camera { components: ["red", "green", "blue"].into_iter().map(of_channel).collect::<Result<_, _>>()? })
+    }
+}
+
+/// The value of a component, which ends in a bell curve at either side.
+fn beyond_table(curve: &Factor, nm: f64) -> f64 {
+    let (from, to) = COMPONENTS_NM;
+    if nm < from {
+        curve.at(from) * (-((from - nm) / FALLS_NM.0).powi(2)).exp()
+    } else if nm > to {
+        curve.at(to) * (-((nm - to) / FALLS_NM.1).powi(2)).exp()
+    } else {
+        curve.at(nm)
+    }
 }
 
 /// How many derivatives a curve has.
@@ -84,6 +116,10 @@ impl Candidate {
 const LEFT_OUT: f64 = 1e-15;
 /// Components of a camera's curve.
 const CAMERA_COMPONENTS: usize = 2;
+/// Where the components of cameras begin and end, nm.
+const COMPONENTS_NM: (f64, f64) = (400.0, 700.0);
+/// Distances beyond these ends at which they have fallen to 1/e, nm: ultraviolet and infrared filters are steep.
+const FALLS_NM: (f64, f64) = (10.0, 15.0);
 /// Shares of a camera's curve that its components do not hold.
 const BEYOND_COMPONENTS: [f64; 4] = [0.1, 0.2, 0.4, 0.8];
 /// Lengths of what they do not hold, nm.

@@ -4,6 +4,8 @@
 //! C′ = C − C a aᵀ C / (u² + aᵀ C a)            tr C − tr C′ = |C a|² / (u² + aᵀ C a)
 //! ```
 //!
+//! For a quantity with the derivative g the variance gᵀ C g takes the place of the trace, and `(gᵀ C a)² / (u² + aᵀ C a)` that of the gain.
+//!
 //! C is the covariance of a curve, a are the weights of an exposure, u is the uncertainty that its reading would have.
 
 use nalgebra::{DMatrix, DVector};
@@ -16,16 +18,22 @@ use super::fit::FittedCurve;
 pub struct Step {
     /// Which candidate.
     pub index: usize,
-    /// Sum of the variances of all curves without it.
+    /// The variance that is to fall, summed over all curves, without it.
     pub before: f64,
     /// With it.
     pub after: f64,
 }
 
-/// The candidates that take most from the sum of variances, one after the other, each once; `relative` is the relative standard uncertainty
-/// that their readings would have.
+/// The candidates that take most from the variance, one after the other, each once; `relative` is the relative standard uncertainty that their
+/// readings would have. The variance is that of a quantity with these derivatives, a curve each, or the sum over all nodes if there are none.
 #[must_use]
-pub fn greedy(curves: &[FittedCurve], candidates: &Exposures, relative: f64, count: usize) -> Vec<Step> {
+pub fn greedy(curves: &[FittedCurve], gradients: &[Vec<f64>], candidates: &Exposures, relative: f64, count: usize) -> Vec<Step> {
+    let gradients: Vec<DVector<f64>> = gradients.iter().map(|g| DVector::from_column_slice(g)).collect();
+    let variance = |covariances: &[DMatrix<f64>]| -> f64 {
+        let of =
+            |(c, covariance): (usize, &DMatrix<f64>)| gradients.get(c).map_or_else(|| covariance.trace(), |g| g.dot(&(covariance * g)));
+        covariances.iter().enumerate().map(of).sum()
+    };
     let mut covariances: Vec<DMatrix<f64>> = curves.iter().map(FittedCurve::covariance).collect();
     let mut left: Vec<usize> = (0..candidates.len()).collect();
     let mut steps = Vec::new();
@@ -39,7 +47,7 @@ pub fn greedy(curves: &[FittedCurve], candidates: &Exposures, relative: f64, cou
         for (covariance, (c_a, below)) in covariances.iter_mut().zip(found) {
             covariance.ger(-1.0 / below, &c_a, &c_a, 1.0);
         }
-        steps.push(Step { index, before, after: covariances.iter().map(DMatrix::trace).sum() });
+        steps.push(Step { index, before, after: variance(&covariances) });
     }
     steps
 }

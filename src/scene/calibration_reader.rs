@@ -118,7 +118,11 @@ fn read_bench(value: &Value, fields: &Fields, reading: &mut Reading) -> Option<(
     let name = value.text(&mut reading.problems)?;
     let path = reading.path(value, name)?;
     let document = reading.document(value, &path, "scene file")?;
+    let before = reading.problems.count();
     let mut scene = read_scene_document(&document, reading)?;
+    if reading.problems.count() > before {
+        return None;
+    }
     if let Some(sensor) = fields.get("sensor") {
         let sensor = read_sensor(&sensor, reading)?;
         scene.instruments.iter_mut().for_each(|instrument| instrument.sensor = sensor.clone());

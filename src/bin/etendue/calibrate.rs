@@ -12,6 +12,7 @@ use etendue::report::calibration::{
 };
 use etendue::scene::Calibration;
 use etendue::sensor::Acceptance;
+use etendue::study::calibrate::suggest::Wanted;
 use etendue::study::calibrate::{CalibrateError, CalibrateOptions, Calibrated, calibrate};
 
 use crate::measure::whole;
@@ -32,6 +33,9 @@ pub(crate) struct Arguments {
     /// Name the best N of the file's candidates for further exposures.
     #[arg(long, value_name = "N", value_parser = whole(1, 1000), allow_hyphen_values = true)]
     suggest: Option<u64>,
+    /// What the suggested exposures are to make more certain: `curve`, or a quantity of the report such as `f1` or "s_v for D65".
+    #[arg(long, value_name = "WHAT", default_value = "curve", requires = "suggest")]
+    reduce: String,
     /// Seed of the noise and of the rays: the same seed gives the same bits.
     #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX), allow_hyphen_values = true, default_value_t = 0)]
     seed: u64,
@@ -82,6 +86,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         fit: FitOptions { chooser: arguments.choose.chooser(), ..FitOptions::default() },
         seed: arguments.seed,
         suggest: arguments.suggest.map_or(0, |n| usize::try_from(n).unwrap_or(usize::MAX)),
+        wanted: if arguments.reduce == "curve" { Wanted::Curve } else { Wanted::Quantity(arguments.reduce.clone()) },
         stop: Stop { target: Some(1e-3), ..Stop::default() },
         data,
     };
@@ -91,7 +96,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let calibrated = calibrate(&calibration, &options, &watch);
     bar.finish_and_clear();
     let calibrated = calibrated.map_err(|e| match e {
-        CalibrateError::Fit(_) | CalibrateError::Campaign(_) => Failure::Input(format!("error: {}: {e}", arguments.file)),
+        CalibrateError::Fit(_) | CalibrateError::Campaign(_) | CalibrateError::Wanted { .. } => {
+            Failure::Input(format!("error: {}: {e}", arguments.file))
+        }
         CalibrateError::Spectrum(_) => Failure::Run(format!("error: {e}")),
     })?;
     let (written, extension) = match arguments.format {

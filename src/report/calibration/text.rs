@@ -3,12 +3,16 @@
 use std::fmt::Write;
 
 use crate::metrology::rounding::{Rounded, format_significant};
+use crate::study::calibrate::propagate::{DRAWS, Propagated};
+use crate::study::calibrate::suggest::Wanted;
 use crate::study::calibrate::{Calibrated, CalibratedChannel};
 
 /// Rows of the curve that are printed; the files hold them all.
 const ROWS: usize = 17;
 /// Share of a reading from outside of the nodes that is told.
 const TOLD_OUTSIDE: f64 = 1e-4;
+/// Relative difference of linear and drawn uncertainties that is told.
+const LINEAR: f64 = 0.25;
 
 /// The page.
 #[must_use]
@@ -32,15 +36,14 @@ pub fn to_text(calibrated: &Calibrated) -> String {
     if !calibrated.suggestions.is_empty() {
         text.push_str("\nFurther exposures that would help most\n");
         for (i, s) in calibrated.suggestions.iter().enumerate() {
-            let percent = |x: f64| format_significant(100.0 * x, 3);
-            let _ = writeln!(
-                text,
-                "  {}. {}: u of the curve {} % → {} % of its peak (RMS)",
-                i + 1,
-                s.label,
-                percent(s.before),
-                percent(s.after)
-            );
+            let (before, after) = match &calibrated.wanted {
+                Wanted::Curve => {
+                    let percent = |x: f64| format!("{} %", format_significant(100.0 * x, 3));
+                    (format!("u of the curve {}", percent(s.before)), format!("{} of its peak (RMS)", percent(s.after)))
+                }
+                Wanted::Quantity(name) => (format!("u of {name} {}", format_significant(s.before, 2)), format_significant(s.after, 2)),
+            };
+            let _ = writeln!(text, "  {}. {}: {before} → {after}", i + 1, s.label);
         }
     }
     for remark in &calibrated.remarks {
@@ -77,19 +80,36 @@ fn channel_text(text: &mut String, calibrated: &Calibrated, channel: &Calibrated
     }
     curve_rows(text, calibrated, channel);
     if !channel.uses.is_empty() {
-        let truth = if channel.truth.is_some() { "      true curve   apart by" } else { "" };
-        let _ = writeln!(text, "  In use              value ± u (linear)        u (Monte Carlo){truth}");
-        for q in &channel.uses {
-            let rounded = Rounded::new(q.value, q.standard_uncertainty).map_or_else(|| "–".to_owned(), |r| r.with_unit(""));
-            let truth = q.truth.map_or_else(String::new, |truth| {
-                let apart = (q.value - truth) / q.standard_uncertainty;
-                let apart = if apart.is_finite() { format!("{apart:+.1} u").replace('-', "−") } else { String::new() };
-                format!("   {:>12}   {apart:>8}", format_significant(truth, 6))
-            });
-            let unit = if q.unit == "1" { String::new() } else { format!(" ({} {})", channel.readings.measurand.unit(), q.unit) };
-            let name = format!("{}{unit}", q.name);
-            let _ = writeln!(text, "  {name:<18}  {:<26}{:<12}{truth}", rounded.trim(), format_significant(q.monte_carlo, 2));
-        }
+        uses_text(text, channel);
+    }
+}
+
+/// What the curve is worth in use.
+fn uses_text(text: &mut String, channel: &CalibratedChannel) {
+    let name = |q: &Propagated| match q.unit.as_str() {
+        "1" => q.name.clone(),
+        unit => format!("{} ({} {unit})", q.name, channel.readings.measurand.unit()),
+    };
+    let width = channel.uses.iter().map(|q| name(q).chars().count()).fold(8, usize::max);
+    let truth = if channel.truth.is_some() { format!("{:>13}{:>10}", "true curve", "apart") } else { String::new() };
+    let _ = writeln!(text, "  {:<width$}  {:<24}{:>14}{truth}", "In use", "value ± u", "Monte Carlo u");
+    for q in &channel.uses {
+        let rounded = Rounded::new(q.value, q.standard_uncertainty).map_or_else(|| "–".to_owned(), |r| r.with_unit(""));
+        let truth = q.truth.map_or_else(String::new, |truth| {
+            let apart = (q.value - truth) / q.standard_uncertainty;
+            let apart = if apart.is_finite() { format!("{apart:+.1} u").replace('-', "−") } else { String::new() };
+            format!("{:>13}{apart:>10}", format_significant(truth, 6))
+        });
+        let _ = writeln!(text, "  {:<width$}  {:<24}{:>14}{truth}", name(q), rounded.trim(), format_significant(q.monte_carlo, 2));
+    }
+    let apart = |q: &&Propagated| (q.monte_carlo / q.standard_uncertainty - 1.0).abs() > LINEAR;
+    let bent: Vec<&str> = channel.uses.iter().filter(apart).map(|q| q.name.as_str()).collect();
+    if !bent.is_empty() {
+        let _ = writeln!(
+            text,
+            "  The linear u and that of {DRAWS} draws differ for {}: the curve is too uncertain there for linear propagation, or held by zero.",
+            bent.join(", ")
+        );
     }
 }
 

@@ -16,7 +16,7 @@ pub mod suggest;
 
 use std::fmt;
 
-use crate::calibration::{CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, Readings, fit};
+use crate::calibration::{CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, PriorKind, Readings, fit};
 use crate::characterization::campaign::{self, CampaignError, ChannelReadings, Light};
 use crate::estimate::{Stop, Watch};
 use crate::quantity::Measurand;
@@ -24,10 +24,10 @@ use crate::scene::Calibration;
 use crate::spectrum::{Density, Factor, Outside, SpectrumError, Table};
 
 use propagate::Propagated;
-use suggest::Suggestion;
+use suggest::{Suggestion, Wanted};
 
-/// Share of what was open before the readings above which a node counts as not determined.
-pub const UNDETERMINED: f64 = 0.5;
+/// Share of the variance before the readings above which a node counts as not determined: its uncertainty is still half of what it was.
+pub const UNDETERMINED: f64 = 0.25;
 
 /// How to calibrate.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +38,8 @@ pub struct CalibrateOptions {
     pub seed: u64,
     /// How many further exposures to suggest.
     pub suggest: usize,
+    /// What these are to make more certain.
+    pub wanted: Wanted,
     /// When the ray engine stops.
     pub stop: Stop,
     /// Readings of a laboratory, a channel each; simulated if there are none.
@@ -53,6 +55,13 @@ pub enum CalibrateError {
     Fit(CalibrationError),
     /// A spectrum leaves the range of numbers.
     Spectrum(SpectrumError),
+    /// No quantity of this name follows from the curve.
+    Wanted {
+        /// The name.
+        name: String,
+        /// Names of those that do.
+        known: String,
+    },
 }
 
 impl fmt::Display for CalibrateError {
@@ -61,6 +70,7 @@ impl fmt::Display for CalibrateError {
             Self::Campaign(e) => e.fmt(f),
             Self::Fit(e) => e.fmt(f),
             Self::Spectrum(e) => e.fmt(f),
+            Self::Wanted { name, known } => write!(f, "no quantity called \"{name}\" follows from the curve; there are: curve, {known}"),
         }
     }
 }
@@ -131,6 +141,8 @@ pub struct Calibrated {
     pub channels: Vec<CalibratedChannel>,
     /// The prior that the readings speak for, in words, and its length, nm.
     pub prior: (String, f64),
+    /// What further exposures are to make more certain.
+    pub wanted: Wanted,
     /// Further exposures, the best first.
     pub suggestions: Vec<Suggestion>,
     /// Seed of noise and rays.
@@ -158,14 +170,8 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     let sensor = &calibration.bench.instruments[0].sensor;
     let factors: Vec<f64> = sensor.channels.iter().map(|c| campaign::geometry_factor(sensor, c)).collect();
     let scaled: Vec<Readings> = readings.iter().zip(&factors).map(|(r, g)| per_factor(r, *g)).collect();
-    let fitted = fit(&exposures, &scaled, &options.fit)?;
+    let fitted = fit(&exposures, &scaled, &FitOptions { prior: prior(options, &readings, nodes), ..options.fit.clone() })?;
     let scale_uncertainty = calibration.scale_uncertainty.hypot(light.relative_uncertainty);
-    let suggestions = if options.suggest > 0 && !candidates.is_empty() {
-        let further = Exposures::new(nodes, candidates)?;
-        suggest::suggest(&fitted, &further, &scaled, options.suggest)
-    } else {
-        Vec::new()
-    };
     let mut channels = Vec::with_capacity(readings.len());
     let mut remarks = calibration.remarks.clone();
     remarks.extend(fitted.remarks.iter().cloned());
@@ -174,7 +180,26 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
         let found = channel(calibration, curve, readings, simulated.as_ref(), taken, scale_uncertainty, options.seed)?;
         channels.push(CalibratedChannel { per_irradiance: factors[c], ..found });
     }
+    let suggestions = if options.suggest > 0 && !candidates.is_empty() {
+        let further = Exposures::new(nodes, candidates)?;
+        let gradients = match &options.wanted {
+            Wanted::Curve => Vec::new(),
+            Wanted::Quantity(name) => gradients_of(&channels, name)?,
+        };
+        suggest::suggest(&fitted, &gradients, &further, &scaled, options.suggest)
+    } else {
+        Vec::new()
+    };
     Ok(assembled(calibration, options, &light, exposures, &fitted, channels, suggestions, scale_uncertainty, remarks))
+}
+
+/// Derivatives of the quantity of this name, a channel each.
+fn gradients_of(channels: &[CalibratedChannel], name: &str) -> Result<Vec<Vec<f64>>, CalibrateError> {
+    let known: Vec<&str> = channels.iter().flat_map(|c| &c.uses).map(|q| q.name.as_str()).collect();
+    let found = crate::naming::nearest(name, known.iter().copied());
+    let of = |c: &CalibratedChannel| c.uses.iter().find(|q| Some(q.name.as_str()) == found).map(|q| q.gradient.clone());
+    let gradients: Option<Vec<Vec<f64>>> = channels.iter().map(of).collect();
+    gradients.filter(|g| !g.is_empty()).ok_or_else(|| CalibrateError::Wanted { name: name.to_owned(), known: known.join(", ") })
 }
 
 #[allow(clippy::too_many_arguments)]
@@ -200,10 +225,21 @@ fn assembled(
         scale_uncertainty,
         channels,
         prior: (fitted.prior.clone(), fitted.length_nm),
+        wanted: options.wanted.clone(),
         suggestions,
         seed: options.seed,
         samples: light.samples,
         remarks,
+    }
+}
+
+/// Cameras have a prior of their own: three channels for red, green and blue, as their names say.
+fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f64]) -> PriorKind {
+    let names: Vec<String> = readings.iter().map(|r| r.channel.to_lowercase()).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    match (&options.fit.prior, names.as_slice()) {
+        (PriorKind::Smooth, ["r", "g", "b"] | ["red", "green", "blue"]) => PriorKind::camera(nodes_nm).unwrap_or_default(),
+        (given, _) => given.clone(),
     }
 }
 

@@ -37,6 +37,8 @@ pub struct Propagated {
     pub monte_carlo_mean: f64,
     /// The value of the true curve, if it is known.
     pub truth: Option<f64>,
+    /// Its derivative with respect to the curve at each node.
+    pub gradient: Vec<f64>,
 }
 
 /// A quantity to be propagated: of a curve as nodes, and its derivative there.
@@ -84,7 +86,8 @@ pub fn uses(
     }
     for ((name, lamp), z) in spectra.iter().zip(&rows).skip(1) {
         let (by_a, by_z) = (dot(&rows[0], &curve.values), dot(z, &curve.values));
-        if let Ok(value) = correction_factor(&fitted, &v, lamp, &a) {
+        // For the light that the meter is adjusted with the factor is 1, whatever the curve.
+        if let (Ok(value), true) = (correction_factor(&fitted, &v, lamp, &a), z != &rows[0]) {
             let ratio = lamp.integral(&[&v]) / a.integral(&[&v]);
             let row_a = &rows[0];
             quantities.push(Quantity {
@@ -135,6 +138,7 @@ fn drawn(curve: &FittedCurve, quantities: Vec<Quantity>, scale: f64, seed: u64) 
             name: q.name,
             value: q.value,
             truth: q.truth,
+            gradient: q.gradient,
         })
         .collect()
 }

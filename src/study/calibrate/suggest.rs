@@ -18,28 +18,41 @@ pub struct Suggestion {
     pub label: String,
     /// Its index among the candidates.
     pub index: usize,
-    /// Root of the mean variance of the curves before and after, over the peak of the curves.
+    /// Before it: root of the mean variance of the curves over their peak, or the standard uncertainty of the quantity that is wanted.
     pub before: f64,
     /// After it and those before it in the list.
     pub after: f64,
 }
 
-/// The best `count` of the candidates, the best first; the sum over the channels counts.
+/// What is to become more certain.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Wanted {
+    /// All nodes of all curves alike.
+    #[default]
+    Curve,
+    /// A quantity that follows from the curve, by its name: "f1′", "s_v for D65".
+    Quantity(String),
+}
+
+/// The best `count` of the candidates, the best first; the sum over the channels counts. `gradients` are the derivatives of the quantity that is wanted, a
+/// channel each, or nothing for the curves themselves.
 #[must_use]
-pub fn suggest(fitted: &Fitted, candidates: &Exposures, readings: &[Readings], count: usize) -> Vec<Suggestion> {
+pub fn suggest(fitted: &Fitted, gradients: &[Vec<f64>], candidates: &Exposures, readings: &[Readings], count: usize) -> Vec<Suggestion> {
     let relative = median(
         readings.iter().flat_map(|r| r.values.iter().zip(&r.standard_uncertainties).filter(|(y, _)| **y != 0.0).map(|(y, u)| u / y.abs())),
     );
     let peak = fitted.curves.iter().flat_map(|c| &c.values).fold(0.0f64, |most, s| most.max(*s));
-    let nodes = fitted.wavelengths_nm.len() * fitted.curves.len();
-    let over_peak = |trace: f64| (trace.max(0.0) / nodes as f64).sqrt() / peak;
-    suggestion::greedy(&fitted.curves, candidates, relative, count)
+    let nodes = (fitted.wavelengths_nm.len() * fitted.curves.len()) as f64;
+    let root = |variance: f64| {
+        if gradients.is_empty() { (variance.max(0.0) / nodes).sqrt() / peak } else { variance.max(0.0).sqrt() }
+    };
+    suggestion::greedy(&fitted.curves, gradients, candidates, relative, count)
         .into_iter()
         .map(|step| Suggestion {
             label: candidates.labels()[step.index].clone(),
             index: step.index,
-            before: over_peak(step.before),
-            after: over_peak(step.after),
+            before: root(step.before),
+            after: root(step.after),
         })
         .collect()
 }
