@@ -47,8 +47,9 @@ fn a_lux_meter_head_is_found_on_its_bench() {
     for q in &channel.uses {
         let (u, truth) = (q.standard_uncertainty, q.truth.unwrap());
         assert!((q.value - truth).abs() < 3.5 * u, "{}: {} ± {u} against {truth}", q.name, q.value);
-        // GUM Supplement 1: the draws agree with the linear propagation, but for what non-negativity takes away.
-        assert!(q.monte_carlo < 1.15 * u && q.monte_carlo > 0.6 * u, "{}: linear {u}, drawn {}", q.name, q.monte_carlo);
+        // GUM Supplement 1: 1000 draws know a standard deviation within 2.2 %; f1′ bends where the curve is zero.
+        let bends = if q.name == "f1′" { 0.35 } else { 0.09 };
+        assert!((q.monte_carlo / u - 1.0).abs() < bends, "{}: linear {u}, drawn {}", q.name, q.monte_carlo);
     }
     let f1 = &channel.uses[0];
     assert!(f1.name == "f1′" && (f1.truth.unwrap() - 0.0545).abs() < 2e-4 && f1.standard_uncertainty < 2e-3, "{f1:?}");
@@ -118,6 +119,31 @@ fn the_fitted_sensor_reads_as_the_true_one_within_its_uncertainty() {
         assert!((fitted / truth - 1.0).abs() < 3.0 * u, "{lamp}: {fitted} and {truth}, u {u}");
         assert!(u < 0.01 && u > 0.004, "{lamp}: {u}");
     }
+}
+
+#[test]
+fn a_camera_is_found_before_a_chart() {
+    let calibration = campaign("camera.ron");
+    assert_eq!(calibration.exposures.len(), 48);
+    let calibrated = run(&calibration, &CalibrateOptions { stop: Stop { target: Some(1e-3), ..Stop::default() }, ..Default::default() });
+    assert!(calibrated.prior.0.contains("camera components"), "{:?}", calibrated.prior);
+    let (mut inside, mut count, mut square, mut peak) = (0, 0, 0.0, 0.0f64);
+    for channel in &calibrated.channels {
+        for ((s, t), u) in channel.curve.values.iter().zip(channel.truth.as_ref().unwrap()).zip(&channel.standard_uncertainties) {
+            inside += usize::from((s - t).abs() <= 2.58 * u);
+            count += 1;
+            square += (s - t).powi(2);
+            peak = peak.max(*t);
+        }
+    }
+    let rmse = (square / count as f64).sqrt() / peak;
+    println!("camera: {rmse:.4} of the peak, {inside} of {count} within 99 % bands");
+    assert!(rmse < 0.05 && inside as f64 >= 0.95 * count as f64, "{rmse}, {inside} of {count}");
+    // Readings are the integrals of curve and light, but for noise.
+    let white = calibrated.labels.iter().position(|l| l.starts_with("white") && l.ends_with("D65")).unwrap();
+    let (reading, curve) = (calibrated.channels[1].readings.values[white], calibrated.channels[1].truth.as_ref().unwrap());
+    let expected: f64 = calibrated.exposures.row(white).iter().zip(curve).map(|(a, s)| a * s).sum();
+    assert!((reading / expected - 1.0).abs() < 0.02, "{reading} and {expected}");
 }
 
 #[test]
@@ -217,7 +243,7 @@ fn suggested_exposures_beat_a_choice_by_chance() {
         chance_sum += by_chance;
     }
     println!("suggested {:.4}, by chance {:.4}, better in {wins} of 50", suggested_sum / 50.0, chance_sum / 50.0);
-    // Of 50 throws of a coin 33 or more come up heads with a probability of 1.6 %.
+    // Of 50 throws of a coin, 33 or more come up heads with a probability of 1.6 %.
     assert!(wins >= 33 && suggested_sum < chance_sum, "better in {wins} of 50");
 }
 

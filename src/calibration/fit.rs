@@ -82,6 +82,9 @@ pub struct FittedCurve {
     pub noise: DMatrix<f64>,
     /// Covariance of what the readings leave open: bias of the smooth fit, and parts that no exposure sees.
     pub structure: DMatrix<f64>,
+    /// Covariance, noise and structure, under the prior that knows where the curve is small: what to expect of further readings. It counts these
+    /// readings twice, so it is no statement of uncertainty.
+    pub expected: DMatrix<f64>,
     /// `curve = gain · readings`, but for non-negativity.
     pub gain: DMatrix<f64>,
     /// Share of what was open before that is still open, 0 to 1, a node each: near 1 the curve there is the prior's guess.
@@ -357,6 +360,7 @@ fn fitted(
     FittedCurve {
         channel: readings.channel.clone(),
         values: curve.iter().copied().collect(),
+        expected: &posterior.noise + &posterior.structure,
         noise: posterior.noise,
         structure,
         gain: posterior.gain,

@@ -2,8 +2,10 @@
 //!
 //! ```text
 //! q = f(s)      u²(q) = gᵀ C g      g = ∂f/∂s at the fitted curve
-//! draws         s + L z,  C = L Lᵀ,  z standard normal, cut at zero
+//! draws         s + L z,  C = L Lᵀ,  z standard normal
 //! ```
+//!
+//! Draws are not cut at zero: the readings hold sums over wavelengths, and cutting would break them.
 //!
 //! Source: JCGM 100 (GUM) 5.1.2 and 5.2.2; JCGM 101 (GUM Supplement 1).
 //!
@@ -72,11 +74,11 @@ impl Sampler {
         self.root.ncols() + 1
     }
 
-    /// The curve for these standard normal numbers, nowhere negative; missing numbers count as zero.
+    /// The curve for these standard normal numbers; missing numbers count as zero. It may be negative.
     #[must_use]
     pub fn curve(&self, normals: &[f64]) -> Vec<f64> {
         let z = DVector::from_fn(self.root.ncols(), |j, _| normals.get(j).copied().unwrap_or(0.0));
         let scale = 1.0 + self.scale * normals.get(self.root.ncols()).copied().unwrap_or(0.0);
-        (&self.mean + &self.root * z).iter().map(|s| (s * scale).max(0.0)).collect()
+        (&self.mean + &self.root * z).iter().map(|s| s * scale).collect()
     }
 }

@@ -147,7 +147,7 @@ fn read_head(head: &Row, names: &[(String, String)], problems: &mut Problems) ->
             continue;
         }
         let (title, unit) = match cell.text.strip_suffix(')').and_then(|t| t.rsplit_once('(')) {
-            Some((title, unit)) if !(title.trim() == "u") => (title.trim(), Some(unit.trim())),
+            Some((title, unit)) if title.trim() != "u" => (title.trim(), Some(unit.trim())),
             _ => (cell.text.as_str(), None),
         };
         let inner = title.strip_prefix("u(").and_then(|t| t.strip_suffix(')'));

@@ -107,7 +107,7 @@ fn uses_text(text: &mut String, channel: &CalibratedChannel) {
     if !bent.is_empty() {
         let _ = writeln!(
             text,
-            "  The linear u and that of {DRAWS} draws differ for {}: the curve is too uncertain there for linear propagation, or held by zero.",
+            "  The linear u and that of {DRAWS} draws differ for {}: the curve is too uncertain for linear propagation.",
             bent.join(", ")
         );
     }

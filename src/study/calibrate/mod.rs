@@ -306,7 +306,7 @@ pub fn curve_unit(measurand: &Measurand) -> String {
 
 /// Mean wavelength of a spectrum within 1 nm to 1e5 nm.
 fn centre_nm(light: &Density) -> f64 {
-    let ramp = Table::from_rows(&[(0.0, 0.0), (1e5, 1e5)], Outside::Zero).map(Factor::Table);
+    let ramp = Table::from_rows(&[(1.0, 1.0), (1e5, 1e5)], Outside::Zero).map(Factor::Table);
     ramp.ok().and_then(|ramp| light.mean_of(&ramp)).unwrap_or(f64::NAN)
 }
 

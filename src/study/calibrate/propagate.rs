@@ -19,6 +19,8 @@ use crate::spectrum::{Density, Factor, SpectrumError, library};
 pub const DRAWS: usize = 1000;
 /// Step of the sums that stand for the integral of |c s − V| in draws and derivatives, nm.
 const STEP_NM: f64 = 0.25;
+/// Keeps the random numbers of the draws apart from those of the readings, whose streams begin with the number of a channel.
+const DRAWS_STREAM: u64 = u64::MAX;
 
 /// A quantity that follows from the curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,10 +43,13 @@ pub struct Propagated {
     pub gradient: Vec<f64>,
 }
 
+/// A quantity as a function of the curve at its nodes.
+type OfNodes<'a> = Box<dyn Fn(&[f64]) -> f64 + 'a>;
+
 /// A quantity to be propagated: of a curve as nodes, and its derivative there.
 struct Quantity<'a> {
     name: String,
-    of_nodes: Box<dyn Fn(&[f64]) -> f64 + 'a>,
+    of_nodes: OfNodes<'a>,
     gradient: Vec<f64>,
     value: f64,
     truth: Option<f64>,
@@ -117,7 +122,7 @@ fn drawn(curve: &FittedCurve, quantities: Vec<Quantity>, scale: f64, seed: u64) 
     let sampler = propagation::Sampler::new(curve, scale);
     let mut sums = vec![(0.0, 0.0); quantities.len()];
     for draw in 0..DRAWS as u64 {
-        let normals: Vec<f64> = (0..sampler.numbers() as u64).map(|j| normal(seed, &[0x64_7261_77, draw, j])).collect();
+        let normals: Vec<f64> = (0..sampler.numbers() as u64).map(|j| normal(seed, &[DRAWS_STREAM, draw, j])).collect();
         let s = sampler.curve(&normals);
         for (q, sum) in quantities.iter().zip(&mut sums) {
             // About the value itself, so that nothing cancels.
