@@ -362,6 +362,21 @@ fn extreme_readings_end_in_honest_bands_or_in_words() {
 }
 
 #[test]
+fn nodes_that_are_too_coarse_are_told() {
+    let mut calibration = campaign_of("monochromator.ron");
+    let told = |calibration: &Calibration| {
+        let calibrated = run(calibration, &CalibrateOptions::default());
+        calibrated.remarks.iter().any(|remark| remark.contains("give `curve` a smaller `step_nm`"))
+    };
+    assert!(!told(&calibration));
+    calibration.nodes_nm = (38..=78).map(|k| 10.0 * f64::from(k)).collect();
+    calibration.noise.relative = 1e-5;
+    calibration.noise.absolute = 1e-5;
+    calibration.scale_uncertainty = 0.0;
+    assert!(told(&calibration));
+}
+
+#[test]
 fn every_rule_finds_the_curve() {
     let calibration = campaign_of("monochromator.ron");
     for rule in [ClassicRule::Discrepancy, ClassicRule::CrossValidation, ClassicRule::LCurve] {

@@ -29,6 +29,9 @@ use suggest::{Suggestion, Wanted};
 /// Share of the variance before the readings above which a node counts as not determined: its uncertainty is still half of what it was.
 pub const UNDETERMINED: f64 = 0.25;
 
+/// Share of the nodes at which a curve may bend more than its uncertainty before it is said.
+const COARSE: f64 = 0.05;
+
 /// How to calibrate.
 #[derive(Clone, Debug, Default)]
 pub struct CalibrateOptions {
@@ -178,6 +181,7 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     for (c, (curve, readings)) in fitted.curves.iter().zip(readings).enumerate() {
         let simulated = options.data.is_none().then(|| campaign::sought(&sensor.channels[c]));
         let found = channel(calibration, curve, readings, simulated.as_ref(), taken, scale_uncertainty, options.seed)?;
+        remarks.extend(too_coarse(nodes, &found));
         channels.push(CalibratedChannel { per_irradiance: factors[c], ..found });
     }
     let suggestions = if options.suggest > 0 && !candidates.is_empty() {
@@ -282,6 +286,23 @@ fn channel(
         curve: curve.clone(),
         per_irradiance: 1.0,
         readings,
+    })
+}
+
+/// Whether the curve bends between its nodes by more than its uncertainty: `h² |s″| / 8`, an eighth of the second difference.
+fn too_coarse(nodes: &[f64], channel: &CalibratedChannel) -> Option<String> {
+    let s = &channel.curve.values;
+    let bends: Vec<f64> = s.windows(3).map(|w| 0.125 * (w[0] - 2.0 * w[1] + w[2]).abs()).collect();
+    let beyond = bends.iter().zip(&channel.standard_uncertainties[1..]).filter(|(bend, u)| bend > u).count();
+    let largest = bends.iter().fold(0.0f64, |most, bend| most.max(*bend));
+    (beyond as f64 > COARSE * nodes.len() as f64).then(|| {
+        format!(
+            "{}: between nodes that are {} nm apart the curve bends by up to {largest:.2e} {}, at {beyond} nodes more than its uncertainty, which does not hold \
+             that; give `curve` a smaller `step_nm`",
+            channel.readings.channel,
+            nodes[1] - nodes[0],
+            channel.unit
+        )
     })
 }
 
