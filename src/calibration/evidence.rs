@@ -34,6 +34,8 @@ pub(super) struct Whitened {
     pub(super) units: Vec<f64>,
     /// The scale of a curve that reads what was read.
     pub(super) scale: f64,
+    /// Share of a prior's trace that its factor may miss.
+    pub(super) left_out: f64,
 }
 
 /// One member of the family, held against the readings.

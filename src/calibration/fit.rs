@@ -201,14 +201,17 @@ fn whitened(exposures: &Exposures, readings: &[Readings]) -> Result<Whitened, Ca
         .collect();
     let matrix = DMatrix::from_fn(m, exposures.matrix.ncols(), |i, k| exposures.matrix[(i, k)] / units[i]);
     let readings = readings.iter().map(|r| DVector::from_fn(m, |i, _| r.values[i] / units[i])).collect();
-    Ok(Whitened { matrix, readings, units, scale: largest / sees })
+    let left_out = prior::left_out(units.iter().copied().fold(f64::INFINITY, f64::min) / largest);
+    Ok(Whitened { matrix, readings, units, scale: largest / sees, left_out })
 }
 
 fn by_evidence(exposures: &Exposures, readings: &[Readings], kind: &PriorKind, data: &Whitened) -> Result<Fitted, CalibrationError> {
     let nodes = exposures.wavelengths_nm();
     let first = match kind {
         PriorKind::Smooth => search(nodes, data),
-        PriorKind::Camera { components } => prior::cameras(nodes, components).into_iter().filter_map(|c| Trial::new(c, data)).collect(),
+        PriorKind::Camera { components } => {
+            prior::cameras(nodes, components, data.left_out).into_iter().filter_map(|c| Trial::new(c, data)).collect()
+        }
     };
     let best = best(&first)?;
     let weights = weighted(&first);
@@ -257,7 +260,7 @@ fn search(nodes: &[f64], data: &Whitened) -> Vec<Trial> {
     for smoothness in Smoothness::ALL {
         let (mut own, mut at) = (f64::NEG_INFINITY, 0.0);
         for &length_nm in coarse.iter().rev() {
-            let Some(trial) = Trial::new(prior::smooth(nodes, smoothness, length_nm), data) else { continue };
+            let Some(trial) = Trial::new(prior::smooth(nodes, smoothness, length_nm, data.left_out), data) else { continue };
             let found = trial.log_evidence;
             if found > own {
                 (own, at) = (found, length_nm);
@@ -271,7 +274,7 @@ fn search(nodes: &[f64], data: &Whitened) -> Vec<Trial> {
         if own > most - FALLEN {
             for shift in [-1.0, 1.0] {
                 let length_nm = at * (shift / LENGTHS_PER_E.1).exp();
-                trials.extend(Trial::new(prior::smooth(nodes, smoothness, length_nm), data));
+                trials.extend(Trial::new(prior::smooth(nodes, smoothness, length_nm, data.left_out), data));
             }
         }
     }

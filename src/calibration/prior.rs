@@ -114,6 +114,8 @@ impl Candidate {
 
 /// Share of the trace that a factor may miss: far below what double precision readings can tell.
 const LEFT_OUT: f64 = 1e-15;
+/// And at most, however noisy the readings are.
+const MOST_LEFT_OUT: f64 = 1e-9;
 /// Components of a camera's curve. With one the reference problems of a camera came out best where readings have no noise, and with two by a tenth better where
 /// they have; with more of them the bands were too narrow.
 const CAMERA_COMPONENTS: usize = 1;
@@ -135,22 +137,27 @@ pub(super) fn lengths_nm(nodes_nm: &[f64], per_e: f64) -> Vec<f64> {
     (0..=count).map(|i| (low + (high - low) * i as f64 / count as f64).exp()).collect()
 }
 
-/// Curves of one smoothness and length.
-pub(super) fn smooth(nodes_nm: &[f64], smoothness: Smoothness, length_nm: f64) -> Candidate {
+/// Share of the trace that a factor may miss where readings have this relative uncertainty: a hundredth of the noise and less.
+pub(super) fn left_out(relative_uncertainty: f64) -> f64 {
+    (1e-5 * relative_uncertainty.powi(2)).clamp(LEFT_OUT, MOST_LEFT_OUT)
+}
+
+/// Curves of one smoothness and length; the factor may miss `left_out` of the trace.
+pub(super) fn smooth(nodes_nm: &[f64], smoothness: Smoothness, length_nm: f64, left_out: f64) -> Candidate {
     let k = |i: usize, j: usize| smoothness.correlation((nodes_nm[i] - nodes_nm[j]).abs() / length_nm);
     let name = match smoothness {
         Smoothness::Two => "Matérn 5/2",
         Smoothness::Three => "Matérn 7/2",
         Smoothness::Four => "Matérn 9/2",
     };
-    Candidate { name: name.to_owned(), length_nm, factors: vec![low_rank::factor(nodes_nm.len(), &k, LEFT_OUT)] }
+    Candidate { name: name.to_owned(), length_nm, factors: vec![low_rank::factor(nodes_nm.len(), &k, left_out)] }
 }
 
 /// Cameras: components and what they do not hold.
-pub(super) fn cameras(nodes_nm: &[f64], components: &[Vec<Vec<f64>>]) -> Vec<Candidate> {
+pub(super) fn cameras(nodes_nm: &[f64], components: &[Vec<Vec<f64>>], left_out: f64) -> Vec<Candidate> {
     let mut found = Vec::new();
     for length_nm in CAMERA_LENGTHS_NM {
-        let rest = smooth(nodes_nm, Smoothness::Two, length_nm);
+        let rest = smooth(nodes_nm, Smoothness::Two, length_nm, left_out);
         for beyond in BEYOND_COMPONENTS {
             let factors = components
                 .iter()
