@@ -23,6 +23,7 @@ def export(packages):
     sun(packages)
     charts()
     cameras()
+    camera_components()
 
 
 def efficiencies():
@@ -298,3 +299,17 @@ def cameras():
             "unit": "1 (relative)",
             "source": "Darrodi, Finlayson, Goodman and Mackiewicz 2015, Reference data set for camera spectral sensitivity estimation; "
                       f'{COLOUR}, colour.MSDS_CAMERA_SENSITIVITIES["{key}"]'})
+
+
+def camera_components():
+    """Leading components of measured cameras, a column for each channel and component; values may be negative."""
+    from colour.recovery.datasets.dyer2017 import BASIS_FUNCTIONS_DYER2017, SPECTRAL_SHAPE_BASIS_FUNCTIONS_DYER2017
+    columns = [(f"{channel} {i + 1}", BASIS_FUNCTIONS_DYER2017[i, :, c])
+               for c, channel in enumerate(("red", "green", "blue")) for i in range(4)]
+    write("camera_components_10nm.csv", "colour", SPECTRAL_SHAPE_BASIS_FUNCTIONS_DYER2017.wavelengths, columns, {
+        "name": "Camera components", "aliases": "Dyer 2017 camera components", "group": "component", "kind": "factor",
+        "quantity": "component of the spectral sensitivities of cameras", "unit": "1 (relative)",
+        "column_quantities": "; ".join(f"component {i + 1} of the {channel} sensitivities of cameras"
+                                       for channel in ("red", "green", "blue") for i in range(4)),
+        "source": "Dyer, Forsythe, Irons, Mansencal and Zhu 2017, RAW to ACES Utility Data; "
+                  f"{COLOUR}, colour.recovery.datasets.dyer2017.BASIS_FUNCTIONS_DYER2017, the first four of six"})

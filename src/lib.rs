@@ -63,6 +63,7 @@
 //! | 4 | [`plan`] | what will be computed, what is left out, and why; pure | rays, random numbers, clocks |
 //! | 5 | [`estimate`] | numbers for the terms of a plan, with their spread | choosing methods, dropping terms |
 //! | 6 | [`measurement`] | estimates → readings with budget and provenance | printing |
+//! | 7 | [`calibration`] | responsivity curves fitted to readings, with covariance and what the readings do not see | scenes, rays |
 //! | 7 | [`characterization`] | quality indices of instruments | fitting, printing |
 //! | 7 | [`lecture`] | the equations of a lecture by name, each a call of the library | physics of its own |
 //! | 8 | [`study`] | what readings are worth: reference cases, error against run time, coverage, what rules save | printing, clocks of its own |
@@ -89,6 +90,7 @@
 //! lm/W at 540 THz gives K_m = 683.002 lm/W with V(λ) in air ([`quantity::constants`]); photons have the energy of their wavelength in
 //! vacuum ([`spectrum::photometry`]). `R(ω)` does not contain the cosine.
 
+pub mod calibration;
 pub mod characterization;
 pub mod estimate;
 pub mod geometry;

@@ -11,11 +11,14 @@
 //! | `bench/` | readings of a sensor on a goniometer, a monochromator, an attenuator | a sensor |
 //! | `emva/` | the figures of EMVA 1288 | frames of a camera |
 //! | `sheet/` | all of them for one sensor, each by both routes | a sensor |
+//! | `campaign` | readings of a calibration bench, simulated | a sensor |
+//! | `readings_table` | readings of a laboratory, read | a table |
 //!
 //! Indices are pure functions on curves and frames. What could not be checked against the text of the defining standards (ISO/CIE 19476, CIE S 023,
 //! DIN 5032-7) is an input there, and each file says so.
 
 pub mod bench;
+pub mod campaign;
 pub mod class_limits;
 pub mod directional_mismatch;
 pub mod emva;
@@ -23,6 +26,7 @@ mod figure;
 pub mod head_mismatch;
 pub mod linearity;
 pub mod out_of_band;
+pub mod readings_table;
 pub mod sheet;
 pub mod spectral_mismatch;
 

@@ -6,6 +6,7 @@
 //! | `ideal.rs` | what ideal instruments would indicate, a part of that table |
 //! | `json.rs` | everything, for programs; numbers keep all their digits |
 //! | `csv.rs` | a row a reading, for spreadsheets |
+//! | `calibration/` | fitted curves: a page, JSON, CSV with covariance, a sensor file |
 //! | `convergence/` | error against run time, in the same three forms; reads references |
 //! | `coverage/` | how often intervals cover the truth, in the same three forms and Markdown |
 //! | `datasheet/` | data sheets of sensors, as text, JSON and charts |
@@ -19,6 +20,7 @@
 //! | `picture/` | frames for the eye: a preview, luminance in false colours |
 //! | `plot/` | plots in SVG and PNG (feature `plot`) |
 
+pub mod calibration;
 pub mod convergence;
 pub mod coverage;
 pub mod csv;

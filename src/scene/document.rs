@@ -112,6 +112,11 @@ impl Document {
         Document { file: file.into(), text: text.into(), line_starts, root }
     }
 
+    /// Some bytes of the text; empty if they are not there.
+    pub(super) fn slice(&self, span: &Range<usize>) -> &str {
+        self.text.get(span.clone()).unwrap_or_default()
+    }
+
     /// Where some bytes of the text are.
     pub(super) fn place(&self, span: &Range<usize>) -> Place<'_> {
         let start = span.start.min(self.text.len());

@@ -18,10 +18,13 @@
 //! | `pixel_reader` | camera pixels |
 //! | `responsivity_reader`, `readout_reader` | their curves with units and uncertainties, their electronics |
 //! | `reader` | the scene as a whole |
+//! | `calibration`, `calibration_reader`, `exposure_reader` | calibration files: a bench and what is put in front of the sensor |
 //! | `checks` | what only the scene as a whole can show |
 
 mod acceptance_reader;
 mod adjustment;
+pub mod calibration;
+mod calibration_reader;
 pub mod camera;
 mod camera_reader;
 mod channel_reader;
@@ -30,6 +33,7 @@ mod decode;
 pub mod diagnostic;
 mod directional_table;
 pub mod document;
+mod exposure_reader;
 mod factor_range;
 pub mod files;
 pub mod instrument;
@@ -55,6 +59,8 @@ mod syntax;
 #[cfg(test)]
 mod tests;
 
+pub use calibration::{Calibration, Exposure, Noise};
+pub use calibration_reader::read_calibration;
 pub use camera::{PlacedCamera, Region};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use files::{FileProblem, Files, MemoryFiles};

@@ -33,7 +33,7 @@ pub fn read_scene(path: &str, files: &dyn Files, root: Option<&str>) -> Result<S
     }
     let mut reading = Reading::new(files, &path, root);
     let document = reading.first_document(&path, "scene");
-    let scene = document.and_then(|document| read_document(&document, &mut reading));
+    let scene = document.and_then(|document| read_scene_document(&document, &mut reading));
     match scene {
         Some(scene) if reading.problems.count() == 0 => Ok(scene),
         _ => Err(reading.problems.finish()),
@@ -57,7 +57,8 @@ pub(super) struct Places<'d> {
     pub(super) instruments: Vec<Value<'d>>,
 }
 
-fn read_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
+/// The scene that a document holds, checked.
+pub(super) fn read_scene_document(document: &Document, reading: &mut Reading) -> Option<Scene> {
     let root = Value::root(document);
     if root.name() != "Scene" {
         let found = root.described();

@@ -103,6 +103,12 @@ impl DirectionalResponse {
         (1.0 - share) * self.values[row][upper - 1] + share * self.values[row][upper]
     }
 
+    /// The table: θ in rad, φ in rad, and `values[i_phi][i_theta]`.
+    #[must_use]
+    pub fn table(&self) -> (&[f64], &[f64], &[Vec<f64>]) {
+        (&self.theta_rad, &self.phi_rad, &self.values)
+    }
+
     /// The largest value of the table.
     #[must_use]
     pub fn max(&self) -> f64 {

@@ -8,6 +8,7 @@
 use multiversion::multiversion;
 
 use super::product_integral::points_and_weights;
+use super::term::terms;
 use super::{Density, Factor, Outside, SpectrumError, Table};
 
 /// Weights of the nodes of a grid for the integral against a product of factors.
@@ -36,15 +37,40 @@ impl Weights {
     /// # Ok::<(), etendue::spectrum::SpectrumError>(())
     /// ```
     pub fn new(grid_nm: &[f64], factors: &[&Factor]) -> Result<Self, SpectrumError> {
+        let (from_nm, to_nm) = (grid_nm.first().copied().unwrap_or(0.0), grid_nm.last().copied().unwrap_or(0.0));
+        Table::new(grid_nm.to_vec(), vec![1.0; grid_nm.len()], Outside::Zero)?;
+        Self::of(grid_nm, &Density::flat(from_nm, to_nm, 1.0)?, factors)
+    }
+
+    /// What each node of a curve weighs in the reading of a spectrum: `wₖ = ∫ density · Π factors · hatₖ dλ`, lines included, so that
+    /// `Σ wₖ s(λₖ)` is the integral against any curve s that is linear between the nodes and zero outside.
+    ///
+    /// # Errors
+    /// If the grid has fewer than two nodes or is not finite, positive and strictly increasing.
+    ///
+    /// ```
+    /// use etendue::spectrum::{Density, kernel::Weights};
+    /// let line = Density::line(552.5, 2.0)?;
+    /// assert_eq!(Weights::of(&[550.0, 560.0], &line, &[])?.weights(), [1.5, 0.5]);
+    /// # Ok::<(), etendue::spectrum::SpectrumError>(())
+    /// ```
+    pub fn of(grid_nm: &[f64], density: &Density, factors: &[&Factor]) -> Result<Self, SpectrumError> {
         const NODES_OF_GAUSSIANS: usize = 16;
-        let grid = Table::new(grid_nm.to_vec(), vec![1.0; grid_nm.len()], Outside::Zero)?;
-        let (from_nm, to_nm) = grid.range_nm();
-        let ones = Density::flat(from_nm, to_nm, 1.0)?;
+        let (from_nm, to_nm) = Table::new(grid_nm.to_vec(), vec![1.0; grid_nm.len()], Outside::Zero)?.range_nm();
+        let inside = Factor::band(from_nm, to_nm, 1.0)?;
+        let factors: Vec<&Factor> = factors.iter().copied().chain([&inside]).collect();
         // The hat adds one to the degree of the product; n nodes are exact up to degree 2n − 1.
-        let degree = factors.iter().try_fold(1, |sum, factor| Some(sum + factor.degree()?));
+        let degree = terms(density, &factors).iter().try_fold(1, |most, term| Some(most.max(1 + term.degree()?)));
         let nodes = degree.map_or(NODES_OF_GAUSSIANS, |degree| degree / 2 + 1);
         let mut weights = vec![0.0; grid_nm.len()];
-        for (nm, weight) in points_and_weights(&ones, factors, grid_nm, nodes) {
+        let lines = density.lines().into_iter().map(|line| {
+            let seen = factors.iter().map(|factor| factor.at(line.wavelength_nm)).product::<f64>();
+            (line.wavelength_nm, line.power * seen)
+        });
+        for (nm, weight) in points_and_weights(density, &factors, grid_nm, nodes).into_iter().chain(lines) {
+            if weight == 0.0 {
+                continue;
+            }
             let above = grid_nm.partition_point(|node| *node <= nm).clamp(1, grid_nm.len() - 1);
             let share = (nm - grid_nm[above - 1]) / (grid_nm[above] - grid_nm[above - 1]);
             weights[above - 1] += weight * (1.0 - share);

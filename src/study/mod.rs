@@ -3,6 +3,7 @@
 //! | module | what it asks |
 //! |---|---|
 //! | [`coverage`] | how often the interval of a sampled reading covers the truth |
+//! | [`calibrate`] | which responsivity a campaign finds, how well, and what it does not see |
 //! | [`converge`] | true error and claimed uncertainty against run time |
 //! | [`savings`] | what each rule of the plan saves |
 //! | [`stability`] | where readings of stiff and extreme scenes begin to fail |
@@ -10,6 +11,7 @@
 //!
 //! A study measures like anybody else and looks only at readings; the clocks are lent by the shell.
 
+pub mod calibrate;
 pub mod converge;
 pub mod coverage;
 pub mod savings;

@@ -4,7 +4,9 @@ use std::fs::{self, File};
 use std::io::{Error, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 
-use etendue::scene::{FileProblem, Files, Scene, read_scene};
+use etendue::characterization::campaign::ChannelReadings;
+use etendue::characterization::readings_table::readings_from_csv;
+use etendue::scene::{Calibration, FileProblem, Files, Scene, read_calibration, read_scene};
 
 use crate::{Failure, complain};
 
@@ -89,16 +91,36 @@ fn names_beside(path: &str) -> Vec<String> {
 
 /// Reads a scene and says how its files were understood, or says everything that is wrong with it.
 pub(crate) fn scene(path: &str, root: Option<&str>) -> Result<Scene, Failure> {
+    let (path, disk) = with_root(path, root);
+    let scene = read_scene(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))?;
+    scene.remarks.iter().for_each(|remark| complain(&format!("note: {remark}")));
+    Ok(scene)
+}
+
+/// The path as the library is asked for it, and the disk within its root.
+fn with_root(path: &str, root: Option<&str>) -> (String, Disk) {
     let path = match root {
         None => through_scenes_folder(path),
         Some(_) => path.to_owned(),
     };
     let folder = root.map_or_else(|| root_of(&path), PathBuf::from);
     // The empty path is the current folder to the library, and nothing to the disk.
-    let disk = Disk { root: Path::new(".").join(folder) };
-    let scene = read_scene(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))?;
-    scene.remarks.iter().for_each(|remark| complain(&format!("note: {remark}")));
-    Ok(scene)
+    (path, Disk { root: Path::new(".").join(folder) })
+}
+
+/// Reads a calibration, as [`scene`] does a scene.
+pub(crate) fn calibration(path: &str, root: Option<&str>) -> Result<Calibration, Failure> {
+    let (path, disk) = with_root(path, root);
+    let calibration = read_calibration(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))?;
+    calibration.remarks.iter().for_each(|remark| complain(&format!("note: {remark}")));
+    Ok(calibration)
+}
+
+/// Reads the readings of a laboratory for a calibration.
+pub(crate) fn readings(path: &str, calibration: &Calibration) -> Result<Vec<ChannelReadings>, Failure> {
+    const LONGEST: u64 = 64 << 20;
+    let text = text(path, LONGEST)?;
+    readings_from_csv(path, &text, calibration).map_err(|problems| Failure::Input(problems.to_string()))
 }
 
 /// The files of the nearest folder of this name, here or above, as (path, text) in the order of their names; `None` if there is no folder.

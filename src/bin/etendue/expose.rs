@@ -26,6 +26,9 @@ use crate::measure::{failed, share, whole};
 use crate::output::{progress_bar, save_at};
 use crate::{Failure, complain, disk, explain, print};
 
+/// Digital numbers, columns and rows to a file.
+type Encoder = fn(&[u16], usize, usize) -> Result<Vec<u8>, ImageError>;
+
 /// Take the picture of a camera of a scene.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
@@ -164,8 +167,7 @@ impl Files<'_> {
     /// A thread a frame: the memory of as many frames as there are threads, whatever their number.
     fn write_frames(&self, frame: &Frame, placed: &PlacedCamera, arguments: &Arguments) -> Result<(), Failure> {
         let Some(pixel) = &placed.camera.pixel else { return Ok(()) };
-        let (ending, write): (_, fn(&[u16], usize, usize) -> Result<Vec<u8>, ImageError>) =
-            if arguments.tiff { ("tiff", tiff16) } else { ("png", png16) };
+        let (ending, write): (_, Encoder) = if arguments.tiff { ("tiff", tiff16) } else { ("png", png16) };
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get) as u64;
         let workers = arguments.threads.unwrap_or(cores).min(arguments.frames);
         for (k, plane) in frame.planes.iter().enumerate() {

@@ -10,6 +10,7 @@
 //!
 //! Exit codes: 0 done, 1 failed, 2 bad input.
 
+mod calibrate;
 mod check;
 mod checkpoint;
 mod converge;
@@ -50,6 +51,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Responsivity curves from readings, with their uncertainty, and what the readings do not see.
+    Calibrate(calibrate::Arguments),
     /// Every problem of a scene file, or "ok".
     Check(check::Arguments),
     /// The data sheet of a sensor: every quality index computed from its curves and measured on a virtual bench.
@@ -99,6 +102,7 @@ enum Failure {
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
+        Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Datasheet(arguments) => datasheet::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

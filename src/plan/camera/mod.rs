@@ -60,7 +60,7 @@ impl CameraPlan {
         }
         let on = |k: usize| !options.naive && !options.without.iter().any(|name| name == RULES[k].0);
         let reflecting = exchange::reflecting_sides(scene);
-        let interreflection = !reflecting.is_empty() && !(on(1) && exchange::no_exchange(scene, &reflecting));
+        let interreflection = !(reflecting.is_empty() || on(1) && exchange::no_exchange(scene, &reflecting));
         let clear: Vec<bool> = scene.sources.iter().map(|s| on(0) && exchange::clear(scene, &reflecting, s)).collect();
         scene
             .cameras

@@ -24,7 +24,8 @@ pub fn to_text(sheet: &DataSheet) -> String {
     };
     let mut lines = vec![
         sheet.title.clone(),
-        format!("  {receptor}; every index computed from the curves and measured on a virtual bench"),
+        format!("  {receptor}"),
+        "  every index computed from the curves and measured on a virtual bench".to_owned(),
         format!(
             "  bench: {readings} readings, {rays} rays, seed {}, monochromator in steps of {} nm",
             sheet.options.seed, sheet.options.step_nm

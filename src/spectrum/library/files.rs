@@ -8,7 +8,7 @@ use crate::spectrum::table_text::{TextRules, parse};
 use crate::spectrum::{Density, Factor, Outside, Table};
 
 /// How many files there are.
-const COUNT: usize = 31;
+const COUNT: usize = 32;
 
 /// The files, as text.
 pub(in crate::spectrum) const FILES: [&str; COUNT] = [
@@ -41,6 +41,7 @@ pub(in crate::spectrum) const FILES: [&str; COUNT] = [
     include_str!("../../../data/colorchecker_ohta_5nm.csv"),
     include_str!("../../../data/camera_nikon_5100_5nm.csv"),
     include_str!("../../../data/camera_sigma_sdmerill_10nm.csv"),
+    include_str!("../../../data/camera_components_10nm.csv"),
     include_str!("../../../data/cie170_components_5nm.csv"),
     include_str!("../../../data/d_series_basis_5nm.csv"),
 ];

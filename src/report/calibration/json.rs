@@ -1,0 +1,129 @@
+//! A calibration as JSON.
+//!
+//! Schema 1: `{"schema", "title", "sensor", "simulated", "seed", "prior", "wavelengths_nm", "channels": […], "suggestions": […], "remarks"}`. What
+//! is not known or not finite is `null`.
+
+use serde::Serialize;
+
+use crate::study::calibrate::propagate::Propagated;
+use crate::study::calibrate::{Calibrated, CalibratedChannel};
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    version: &'static str,
+    title: &'a str,
+    sensor: &'a str,
+    simulated: bool,
+    seed: u64,
+    samples: u64,
+    prior: &'a str,
+    length_nm: f64,
+    relative_scale_uncertainty: f64,
+    wavelengths_nm: &'a [f64],
+    exposures: &'a [String],
+    channels: Vec<Channel<'a>>,
+    suggestions: Vec<Suggested<'a>>,
+    remarks: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Channel<'a> {
+    name: &'a str,
+    reads: &'a str,
+    reading_unit: &'a str,
+    curve_unit: &'a str,
+    responsivity: &'a [f64],
+    standard_uncertainty: &'a [f64],
+    undetermined_share: &'a [f64],
+    truth: Option<&'a [f64]>,
+    not_determined_nm: &'a [(f64, f64)],
+    chi_squared: f64,
+    readings_count: usize,
+    effective_parameters: f64,
+    readings: &'a [f64],
+    reading_standard_uncertainty: &'a [f64],
+    residuals_in_u: &'a [f64],
+    outside_of_curve: Option<f64>,
+    uses: Vec<Use<'a>>,
+}
+
+#[derive(Serialize)]
+struct Use<'a> {
+    name: &'a str,
+    value: Option<f64>,
+    standard_uncertainty: Option<f64>,
+    monte_carlo_standard_uncertainty: Option<f64>,
+    monte_carlo_mean: Option<f64>,
+    truth: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Suggested<'a> {
+    exposure: &'a str,
+    rms_uncertainty_over_peak_before: f64,
+    after: f64,
+}
+
+fn used(q: &Propagated) -> Use<'_> {
+    let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+    Use {
+        name: &q.name,
+        value: finite(q.value),
+        standard_uncertainty: finite(q.standard_uncertainty),
+        monte_carlo_standard_uncertainty: finite(q.monte_carlo),
+        monte_carlo_mean: finite(q.monte_carlo_mean),
+        truth: q.truth.and_then(finite),
+    }
+}
+
+fn channel(c: &CalibratedChannel) -> Channel<'_> {
+    Channel {
+        name: &c.readings.channel,
+        reads: c.readings.measurand.name(),
+        reading_unit: c.readings.measurand.unit(),
+        curve_unit: &c.unit,
+        responsivity: &c.curve.values,
+        standard_uncertainty: &c.standard_uncertainties,
+        undetermined_share: &c.curve.undetermined,
+        truth: c.truth.as_deref(),
+        not_determined_nm: &c.unseen_nm,
+        chi_squared: c.curve.chi_squared,
+        readings_count: c.readings.values.len(),
+        effective_parameters: c.curve.effective_parameters,
+        readings: &c.readings.values,
+        reading_standard_uncertainty: &c.readings.standard_uncertainties,
+        residuals_in_u: &c.curve.residuals,
+        outside_of_curve: c.outside.as_ref().map(|o| o.0),
+        uses: c.uses.iter().map(used).collect(),
+    }
+}
+
+/// Everything as JSON text, ending in a line break.
+#[must_use]
+pub fn to_json(calibrated: &Calibrated) -> String {
+    let document = Document {
+        schema: 1,
+        version: env!("CARGO_PKG_VERSION"),
+        title: &calibrated.title,
+        sensor: &calibrated.sensor,
+        simulated: calibrated.simulated,
+        seed: calibrated.seed,
+        samples: calibrated.samples,
+        prior: &calibrated.prior.0,
+        length_nm: calibrated.prior.1,
+        relative_scale_uncertainty: calibrated.scale_uncertainty,
+        wavelengths_nm: &calibrated.nodes_nm,
+        exposures: &calibrated.labels,
+        channels: calibrated.channels.iter().map(channel).collect(),
+        suggestions: calibrated
+            .suggestions
+            .iter()
+            .map(|s| Suggested { exposure: &s.label, rms_uncertainty_over_peak_before: s.before, after: s.after })
+            .collect(),
+        remarks: &calibrated.remarks,
+    };
+    let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
+    text.push('\n');
+    text
+}
