@@ -58,16 +58,16 @@
 //! | 2 | [`source`] | where and how light is emitted | shadows, sensors |
 //! | 2 | [`surface`] | what reflects | paths |
 //! | 2 | [`observer`] | V(λ), cones, colour matching, α-opic; what a spectrum is to an eye | scenes |
-//! | 2 | [`sensor`] | aperture, acceptance, channels, readout | tracing |
+//! | 2 | [`sensor`] | aperture, acceptance, channels, readout; lenses, pixels and their noise | tracing |
 //! | 3 | [`scene`] | the file format, its checks, its messages; instruments and their poses | estimation, hidden defaults |
 //! | 4 | [`plan`] | what will be computed, what is left out, and why; pure | rays, random numbers, clocks |
 //! | 5 | [`estimate`] | numbers for the terms of a plan, with their spread | choosing methods, dropping terms |
-//! | 6 | [`measurement`] | estimates → readings with budget and provenance | printing |
+//! | 6 | [`measurement`] | estimates → readings and pictures with budget and provenance; what an ideal instrument would indicate | printing |
 //! | 7 | [`calibration`] | responsivity curves fitted to readings, with covariance and what the readings do not see | scenes, rays |
-//! | 7 | [`characterization`] | quality indices of instruments | fitting, printing |
+//! | 7 | [`characterization`] | quality indices from curves, from frames and on a virtual bench; calibration campaigns | fitting, printing |
 //! | 7 | [`lecture`] | the equations of a lecture by name, each a call of the library | physics of its own |
-//! | 8 | [`study`] | what readings are worth: reference cases, error against run time, coverage, what rules save | printing, clocks of its own |
-//! | 9 | [`report`] | text, JSON, CSV, plots | computing anything else |
+//! | 8 | [`study`] | what readings are worth: reference cases, error against run time, coverage, what rules save, what a calibration finds | printing, clocks of its own |
+//! | 9 | [`report`] | text, JSON, CSV, plots, image files | computing anything else |
 //! | 10 | `bin/etendue` | arguments, files, screens | physics |
 //!
 //! # Invariants
@@ -88,7 +88,8 @@
 //!
 //! Metres, watts, nanometres in air; right-handed, z up. Angles in degrees in files, in radians in memory; units are in the names. 683
 //! lm/W at 540 THz gives K_m = 683.002 lm/W with V(λ) in air ([`quantity::constants`]); photons have the energy of their wavelength in
-//! vacuum ([`spectrum::photometry`]). `R(ω)` does not contain the cosine.
+//! vacuum ([`spectrum::photometry`]). `R(ω)` does not contain the cosine; heads have
+//! a weight w(ω) over all directions instead.
 
 pub mod calibration;
 pub mod characterization;
