@@ -492,7 +492,7 @@ fn what_is_wrong_with_a_calibration_file_is_said_with_its_place() {
         ("step_nm: 10", "step_nm: 0.001", 4, "allowed: 2 to 2000 nodes"),
         ("from_nm: 400", "from_nm: 800", 4, "the curve has"),
         ("spectra: [\"LED-B1\"]", "spectra: []", 2, "the list of spectra is empty"),
-        ("spectra: [\"LED-B1\"]", "spectra: [Led(peak_nm: 450, fwhm_nm: -1)]", 2, "LED"),
+        ("spectra: [\"LED-B1\"]", "spectra: [Led(peak_nm: 450, fwhm_nm: -1)]", 2, "allowed: above 0 nm"),
         ("spectra: [\"LED-B1\"]", "spectra: [Line(900)]", 2, "has no light within the curve, 400 nm to 700 nm"),
         ("Leds(spectra: [\"LED-B1\"])", "Led(\"LED-B1\")", 2, "did you mean `Leds`"),
         ("Leds(spectra: [\"LED-B1\"])", "Leds(spectra: [\"LED-B1\"], pose: 1)", 2, "whole numbers, 0 to 0"),
