@@ -22,6 +22,8 @@ use super::prior::Candidate;
 
 /// Scales that are tried, as powers of e about that of the readings, and their number.
 const SCALES: (f64, f64, usize) = (-3.0, 5.0, 33);
+/// Steps of the L-curve, in logarithms, below which it stands still.
+const STANDING: f64 = 1e-3;
 /// Probabilities below this share of the largest are left out.
 const NEGLIGIBLE: f64 = 1e-2;
 
@@ -197,9 +199,12 @@ pub(super) fn classic_scale(rule: ClassicRule, points: &[RulePoint], readings: u
                 let [(x0, y0), (x1, y1), (x2, y2)] = [log(&w[0]), log(&w[1]), log(&w[2])];
                 let (dx, dy) = (0.5 * (x2 - x0), 0.5 * (y2 - y0));
                 let (ddx, ddy) = (x2 - 2.0 * x1 + x0, y2 - 2.0 * y1 + y0);
-                (dx * ddy - dy * ddx) / (dx * dx + dy * dy).max(f64::MIN_POSITIVE).powf(1.5)
+                let step = dx.hypot(dy);
+                // At both ends the curve stands still, and what is left of its steps is rounding.
+                if step > STANDING { (dx * ddy - dy * ddx) / step.powi(3) } else { 0.0 }
             };
-            points.windows(3).max_by(|a, b| bend(a).total_cmp(&bend(b))).map(|w| w[1].scale)
+            // From stiff to loose the curve comes down the residuals and turns right, up the roughness.
+            points.windows(3).min_by(|a, b| bend(a).total_cmp(&bend(b))).map(|w| w[1].scale)
         }
     }
 }

@@ -22,6 +22,8 @@ use super::prior::{self, Candidate, PriorKind, Smoothness};
 const STRUCTURE_FACTOR: f64 = 2.0;
 /// Where the curve is zero its ripples are as large as where it is this share of its peak.
 const ENVELOPE_FLOOR: f64 = 0.03;
+/// A node has light if it weighs at least this share of the strongest node of an exposure.
+const DARK: f64 = 0.05;
 /// Readings have at least the rounding of double precision, as a share of the largest.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Lengths per factor e in the first search, and in the second about the best.
@@ -87,7 +89,8 @@ pub struct FittedCurve {
     pub expected: DMatrix<f64>,
     /// `curve = gain · readings`, but for non-negativity.
     pub gain: DMatrix<f64>,
-    /// Share of what was open before that is still open, 0 to 1, a node each: near 1 the curve there is the prior's guess.
+    /// Share of the variance before the readings that is left, 0 to 1, a node each: near 1 the curve there is the prior's guess. It is 1 below the
+    /// first and above the last node that has light: how a curve goes on is not known from where it was seen.
     pub undetermined: Vec<f64>,
     /// χ² of the residuals in units of the stated uncertainties.
     pub chi_squared: f64,
@@ -353,9 +356,10 @@ fn fitted(
     data: &Whitened,
 ) -> FittedCurve {
     let residuals: DVector<f64> = &data.readings[channel] - &data.matrix * curve;
-    let undetermined = (0..curve.len())
-        .map(|k| if first.prior_variance[k] > 0.0 { (first.structure[(k, k)] / first.prior_variance[k]).clamp(0.0, 1.0) } else { 0.0 })
-        .collect();
+    let lit = lit(&data.matrix);
+    let left =
+        |k: usize| if first.prior_variance[k] > 0.0 { (first.structure[(k, k)] / first.prior_variance[k]).clamp(0.0, 1.0) } else { 0.0 };
+    let undetermined = (0..curve.len()).map(|k| if lit.contains(&k) { left(k) } else { 1.0 }).collect();
     // tr(A G): what the fitted readings owe to the readings.
     let effective_parameters = (0..data.units.len())
         .map(|i| data.units[i] * data.matrix.row(i).iter().zip(posterior.gain.column(i).iter()).map(|(a, g)| a * g).sum::<f64>())
@@ -372,4 +376,17 @@ fn fitted(
         effective_parameters,
         residuals: residuals.iter().copied().collect(),
     }
+}
+
+/// From the first node that has light to the last, for the light of any exposure.
+fn lit(matrix: &DMatrix<f64>) -> std::ops::RangeInclusive<usize> {
+    let (mut first, mut last) = (usize::MAX, 0);
+    for row in matrix.row_iter() {
+        let least = DARK * row.amax();
+        for (k, _) in row.iter().enumerate().filter(|(_, a)| a.abs() > least) {
+            first = first.min(k);
+            last = last.max(k);
+        }
+    }
+    first..=last
 }

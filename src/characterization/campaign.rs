@@ -1,7 +1,7 @@
 //! A calibration campaign, simulated: the light of each exposure at the sensor, and what the sensor reads.
 //!
 //! ```text
-//! Eᵢ(λ) = Sᵢ(λ) [T₀(λ) + ρᵢ(λ) T₁(λ)]        yᵢ = g ∫ s(λ) Eᵢ(λ) dλ + noise
+//! Eᵢ(λ) = Sᵢ(λ) [T₀(λ) + ρᵢ(λ) T₁(λ)]        yᵢ = g (1 + δ) ∫ s(λ) Eᵢ(λ) dλ + noise
 //! ```
 //!
 //! | symbol | meaning | from |
@@ -10,6 +10,7 @@
 //! | T₀, T₁ | irradiance per unit of source, with the test surface black, and what a white one adds | the ray engine, once for all exposures of a pose |
 //! | ρᵢ | reflectance of the patch | the calibration file |
 //! | s | responsivity of the channel times its scale | the sensor |
+//! | δ | error of the irradiance scale, the same for all readings | drawn from its stated uncertainty |
 //! | g | 1, the area of the aperture, or one over its projected solid angle | what the channel reads |
 //!
 //! Light is linear, so one tracing serves every spectrum. Where every surface reflects alike at all wavelengths T is a number and the
@@ -29,6 +30,8 @@ use crate::surface::Surface;
 
 /// Wavelengths between which the transfer of a coloured bench is linear.
 pub const BANDS: usize = 48;
+/// Keeps the random number of the scale apart from those of the readings, whose streams begin with the number of a channel.
+const SCALE_STREAM: u64 = u64::MAX - 1;
 /// Wavelengths at which a bench is looked at where the responsivity does not end, nm.
 const WIDEST_NM: (f64, f64) = (200.0, 3000.0);
 
@@ -200,13 +203,14 @@ pub fn geometry_factor(sensor: &Sensor, channel: &Channel) -> f64 {
     channel.indication_per_irradiance(&sensor.aperture, &sensor.acceptance).map_or(1.0, |g| g / channel.scale)
 }
 
-/// Readings of the bench's sensor under these lights, with noise.
+/// Readings of the bench's sensor under these lights, with noise, and with an irradiance scale that is wrong by as much as it is uncertain.
 #[must_use]
 pub fn simulated(calibration: &Calibration, spectra: &[(String, Density)], seed: u64) -> Vec<ChannelReadings> {
     let sensor = &calibration.bench.instruments[0].sensor;
+    let scale = 1.0 + calibration.scale_uncertainty * normal(seed, &[SCALE_STREAM]);
     let channels = sensor.channels.iter().enumerate().map(|(c, channel)| {
         let (curve, g) = (sought(channel), geometry_factor(sensor, channel));
-        let truths: Vec<f64> = spectra.iter().map(|(_, light)| g * light.integral(&[&curve])).collect();
+        let truths: Vec<f64> = spectra.iter().map(|(_, light)| scale * g * light.integral(&[&curve])).collect();
         let u: Vec<f64> = truths.iter().map(|y| calibration.noise.standard_uncertainty(*y, calibration.repeats)).collect();
         ChannelReadings {
             channel: channel.name.clone(),

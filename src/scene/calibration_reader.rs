@@ -176,6 +176,7 @@ fn read_list(fields: &Fields, key: &str, bench: &Bench, reading: &mut Reading) -
 }
 
 fn read_noise(value: &Value, reading: &mut Reading) -> Option<Noise> {
+    let before = reading.problems.count();
     let fields = value.fields("the noise", &["relative", "absolute", "dark"], &mut reading.problems)?;
     let problems = &mut reading.problems;
     let mut number = |key: &str, allowed: &str, most: f64| match fields.get(key) {
@@ -188,6 +189,10 @@ fn read_noise(value: &Value, reading: &mut Reading) -> Option<Noise> {
         Some(given) => given.number(&mut reading.problems).map(Some),
     };
     let (relative, absolute) = (relative?, absolute?);
+    // A key that is misspelt is told already.
+    if reading.problems.count() > before {
+        return None;
+    }
     if relative.is_none() && absolute.is_none() {
         value.problem(
             &mut reading.problems,

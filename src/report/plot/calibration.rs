@@ -1,4 +1,4 @@
-//! A calibration: fitted curves with their bands against readings and truth, residuals, averaging kernels.
+//! A calibration: fitted curves with their bands against readings and truth, what they miss, residuals, averaging kernels.
 //!
 //! ```text
 //! band       s ± 2 u          shaded   what the readings do not determine          points   yᵢ / Σₖ Aᵢₖ at the exposure's mean wavelength
@@ -24,6 +24,7 @@ const KERNELS: usize = 9;
 /// A calibration without channels.
 pub fn charts(calibrated: &Calibrated) -> Result<Vec<(String, Chart)>, PlotError> {
     let mut all = vec![("fit".to_owned(), fit(calibrated)?), ("residuals".to_owned(), residuals(calibrated)?)];
+    all.extend(deviations(calibrated).map(|chart| ("deviations".to_owned(), chart)));
     if let Some(first) = calibrated.channels.first() {
         all.push(("kernels".to_owned(), kernels(calibrated, first)));
     }
@@ -38,6 +39,52 @@ fn range(calibrated: &Calibrated) -> (f64, f64) {
 fn unseen(channel: &CalibratedChannel) -> Vec<Span> {
     let label = |i: usize| if i == 0 { "not determined".to_owned() } else { String::new() };
     channel.unseen_nm.iter().enumerate().map(|(i, &(from, to))| Span { label: label(i), from, to }).collect()
+}
+
+/// Channels for red, green and blue have these colours, as their names say.
+fn ink(index: usize, channel: &CalibratedChannel) -> Ink {
+    match channel.readings.channel.to_lowercase().as_str() {
+        "r" | "red" => Ink::Fixed([200, 50, 45]),
+        "g" | "green" => Ink::Fixed([40, 140, 70]),
+        "b" | "blue" => Ink::Fixed([45, 95, 200]),
+        _ => Ink::Palette(index),
+    }
+}
+
+/// Fit minus truth, with the band that the fit claims, in percent of each curve's peak; none if the truth is not known.
+fn deviations(calibrated: &Calibrated) -> Option<Chart> {
+    let (from, to) = range(calibrated);
+    let first = calibrated.channels.first()?;
+    let (mut curves, mut bands, mut largest) = (Vec::new(), Vec::new(), 0.0f64);
+    for (c, channel) in calibrated.channels.iter().enumerate() {
+        let truth = channel.truth.as_ref()?;
+        let peak = truth.iter().fold(0.0f64, |most, s| most.max(*s));
+        if peak <= 0.0 {
+            return None;
+        }
+        let (ink, percent) = (ink(c, channel), 100.0 / peak);
+        let nodes = || calibrated.nodes_nm.iter().enumerate();
+        let u = |k: usize| COVERAGE * percent * channel.standard_uncertainties[k];
+        let apart: Vec<[f64; 2]> = nodes().map(|(k, nm)| [*nm, percent * (channel.curve.values[k] - truth[k])]).collect();
+        largest = apart.iter().fold(largest, |most, p| most.max(p[1].abs()));
+        // The ends of a curve may be far less certain: they are cut at the frame.
+        let mut widths: Vec<f64> = nodes().map(|(k, _)| u(k)).collect();
+        widths.sort_by(f64::total_cmp);
+        largest = largest.max(widths[widths.len() * 9 / 10]);
+        bands.push(Band {
+            label: format!("{}, ±2 u", channel.readings.channel),
+            points: nodes().map(|(k, nm)| [*nm, -u(k), u(k)]).collect(),
+            ink,
+        });
+        curves.push(Curve::new(&subscripted(&channel.readings.channel), apart, ink));
+    }
+    let top = 1.2 * largest.max(f64::MIN_POSITIVE);
+    bands.iter_mut().flat_map(|band| &mut band.points).for_each(|p| (p[1], p[2]) = (p[1].max(-top), p[2].min(top)));
+    let x = Axis::linear("Wavelength λ", "nm", from, to);
+    let y = Axis::linear("Fit minus truth", "% of the peak", -top, top);
+    let subtitle = format!("{}; band: ±2 u about zero", calibrated.sensor);
+    let title = format!("{}: what the fit misses", calibrated.title);
+    Some(Chart { curves, bands, spans: unseen(first), strip: strip(from, to), ..Chart::new(&title, &subtitle, x, y) })
 }
 
 /// The curves of all channels.
@@ -63,9 +110,9 @@ pub fn fit(calibrated: &Calibrated) -> Result<Chart, PlotError> {
         bands.push(Band {
             label: format!("{name}, ±2 u"),
             points: (0..nodes.len()).map(|k| [nodes[k], (values[k] - COVERAGE * u[k]).max(0.0), values[k] + COVERAGE * u[k]]).collect(),
-            ink: Ink::Palette(c),
+            ink: ink(c, channel),
         });
-        curves.push(Curve::new(&if several { name.clone() } else { "fit".to_owned() }, pairs(values), Ink::Palette(c)));
+        curves.push(Curve::new(&if several { name.clone() } else { "fit".to_owned() }, pairs(values), ink(c, channel)));
         if let Some(truth) = &channel.truth {
             let curve = Curve::new("truth", pairs(truth), Ink::Text).dashed(Dash::Dashed);
             curves.push(if several { curve.unwritten() } else { curve });
@@ -73,7 +120,7 @@ pub fn fit(calibrated: &Calibrated) -> Result<Chart, PlotError> {
         points.extend(narrow_readings(calibrated, channel).into_iter().map(|at| Point {
             label: String::new(),
             at,
-            ink: Ink::Palette(c),
+            ink: ink(c, channel),
             radius: 0.55,
             written: false,
         }));
@@ -124,7 +171,7 @@ pub fn residuals(calibrated: &Calibrated) -> Result<Chart, PlotError> {
         chart.points.extend(channel.curve.residuals.iter().enumerate().map(|(i, r)| Point {
             label: calibrated.labels.get(i).cloned().unwrap_or_default(),
             at: [i as f64 + 1.0, *r],
-            ink: Ink::Palette(c),
+            ink: ink(c, channel),
             radius: 0.7,
             written: false,
         }));
