@@ -10,7 +10,7 @@ use std::process::Command;
 use disk::{Repository, root};
 use etendue::estimate::{Stop, Watch};
 use etendue::measurement::{Measurement, measure};
-use etendue::plan::{Plan, PlanOptions, rule_names};
+use etendue::plan::{Plan, PlanOptions, reading_rule_names};
 use etendue::report::savings::{SavingsReport, to_csv, to_json, to_markdown, to_text};
 use etendue::scene::{Scene, read_scene};
 use etendue::study::StudyWatch;
@@ -50,7 +50,7 @@ fn read(scene: &Scene, without: &[&str], seed: u64) -> Measurement {
 fn a_rule_that_acts_alone_saves_rays_and_one_that_is_idle_is_not_measured() {
     for name in ["photometric-bench", "penumbra", "stray-lamp", "light-traps", "ideal-integrating-sphere"] {
         let found = studied(name);
-        assert_eq!(found.rules.iter().map(|r| r.rule).collect::<Vec<_>>(), rule_names(), "{name}");
+        assert_eq!(found.rules.iter().map(|r| r.rule).collect::<Vec<_>>(), reading_rule_names(), "{name}");
         let planned = found.planned.rays.unwrap();
         // Not every naive plan comes to 1 % by so few samples.
         assert!(found.naive.rays.is_none_or(|rays| rays > planned), "{name}");
@@ -90,7 +90,7 @@ fn readings_without_a_rule_are_those_with_it() {
     for name in ["penumbra", "stray-lamp", "light-traps", "disc-source", "laser-line", "cosine-law", "ideal-integrating-sphere"] {
         let scene = shelf(name);
         let all = read(&scene, &[], 1);
-        for (seed, rule) in rule_names().into_iter().enumerate() {
+        for (seed, rule) in reading_rule_names().into_iter().enumerate() {
             for (with, without) in all.readings.iter().zip(&read(&scene, &[rule], 2 + seed as u64).readings) {
                 let joint = with.standard_uncertainty().hypot(without.standard_uncertainty());
                 // Some two hundred comparisons, 15 degrees of freedom at least: 5.5 u is missed once in 16 000.
@@ -110,7 +110,7 @@ fn the_reports_hold_every_scene_and_rule() {
     let report = report();
     let (text, page, csv) = (to_text(&report), to_markdown(&report), to_csv(&report));
     let json: serde_json::Value = serde_json::from_str(&to_json(&report)).unwrap();
-    for rule in rule_names() {
+    for rule in reading_rule_names() {
         assert!(text.contains(rule) && page.contains(&format!("| `{rule}` |")), "{rule}");
         assert_eq!(csv.lines().filter(|line| line.contains(&format!(",{rule},"))).count(), report.scenes.len(), "{rule}");
     }
@@ -118,9 +118,9 @@ fn the_reports_hold_every_scene_and_rule() {
         assert!(written.contains("dark.ron") && written.contains("every reading is zero"));
         assert!(written.contains("Not the expanded uncertainty"));
     }
-    assert_eq!(csv.lines().count(), 1 + report.scenes.len() * (3 + rule_names().len()));
+    assert_eq!(csv.lines().count(), 1 + report.scenes.len() * (3 + reading_rule_names().len()));
     assert_eq!(json["scenes"].as_array().unwrap().len(), 3);
-    assert_eq!(json["rules"].as_array().unwrap().len(), rule_names().len());
+    assert_eq!(json["rules"].as_array().unwrap().len(), reading_rule_names().len());
     assert_eq!(json["scenes"][0]["planned"]["rays"], 0.0);
     assert_eq!(json["not_studied"][0]["scene"], "dark.ron");
 }
@@ -129,7 +129,7 @@ fn the_reports_hold_every_scene_and_rule() {
 fn the_summary_counts_what_the_scenes_say() {
     let report = report();
     let summary = summary(&report.scenes);
-    for (rule, sum) in rule_names().into_iter().zip(&summary.rules) {
+    for (rule, sum) in reading_rule_names().into_iter().zip(&summary.rules) {
         let cells: Vec<_> = report.scenes.iter().flat_map(|s| s.rules.iter().filter(|r| r.rule == rule)).collect();
         assert_eq!(sum.acts, cells.iter().filter(|r| r.terms > 0).count(), "{rule}");
         assert_eq!(sum.alone, cells.iter().filter(|r| matches!(r.without, Without::Costs(_))).count(), "{rule}");
@@ -156,9 +156,9 @@ fn the_page_names_the_rules_that_there_are() {
         .map(|(name, sentence)| (name, sentence.trim_end_matches(" |")))
         .collect();
     assert_eq!(rows, rule_sentences());
-    assert_eq!(rows.iter().map(|row| row.0).collect::<Vec<_>>(), rule_names());
+    assert_eq!(rows.iter().map(|row| row.0).collect::<Vec<_>>(), reading_rule_names());
     let head = page.lines().find(|line| line.starts_with("| scene | readings |")).unwrap();
-    assert!(head.ends_with(&format!("{} |", rule_names().join(" | "))), "{head}");
+    assert!(head.ends_with(&format!("{} |", reading_rule_names().join(" | "))), "{head}");
     // Every rule acts somewhere on the shelf, and every scene of the shelf is in the table.
     let saved = page.split("## What each saves").nth(1).unwrap();
     let acts: BTreeMap<&str, u32> = saved
@@ -168,7 +168,7 @@ fn the_page_names_the_rules_that_there_are() {
             Some((cells.first()?.strip_prefix("| ")?, cells.get(1)?.parse().ok()?))
         })
         .collect();
-    assert!(rule_names().iter().all(|rule| acts[rule] > 0), "{acts:?}");
+    assert!(reading_rule_names().iter().all(|rule| acts[rule] > 0), "{acts:?}");
     for (folder, prefix) in [("scenes", ""), ("scenes/lecture", "lecture/")] {
         for file in disk::files_in(folder, &[".ron"]) {
             let row = format!("\n| {prefix}{} | ", file.trim_end_matches(".ron"));

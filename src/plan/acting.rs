@@ -2,7 +2,7 @@
 
 use super::choose::{closed_form, closed_sphere};
 use super::omit::{delta_source, nothing_blocks};
-use super::{Method, Plan, Term, Visibility, rule_names};
+use super::{Method, Plan, Term, Visibility, reading_rule_names};
 
 impl Method {
     /// The rule that chose this method; `None` for those of the naive plan.
@@ -43,10 +43,10 @@ impl Plan {
         made_cheaper + self.omitted.iter().filter(|omission| omission.rule == rule).count()
     }
 
-    /// The rules that act in this plan, in the order of [`rule_names`].
+    /// The rules that act in this plan, in the order of [`reading_rule_names`].
     #[must_use]
     pub fn acting(&self) -> Vec<&'static str> {
-        rule_names().into_iter().filter(|rule| self.terms_by(rule) > 0).collect()
+        reading_rule_names().into_iter().filter(|rule| self.terms_by(rule) > 0).collect()
     }
 
     /// Whether the other plan computes the same terms in the same way. Reasons for what is left out may differ.

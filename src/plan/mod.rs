@@ -128,9 +128,14 @@ impl Plan {
     }
 }
 
-/// Every name that `--without` accepts: rules that omit, then ways to choose.
+/// Every name that `--without` accepts: the rules of readings, then those of cameras.
 #[must_use]
 pub fn rule_names() -> Vec<&'static str> {
-    let names = omit::RULES.iter().map(|r| r.name).chain(choose::CHOICES.iter().map(|c| c.name));
-    names.chain(camera::RULES.iter().map(|(name, _)| *name)).collect()
+    reading_rule_names().into_iter().chain(camera::RULES.iter().map(|(name, _)| *name)).collect()
+}
+
+/// The rules of readings: those that omit, then ways to choose.
+#[must_use]
+pub fn reading_rule_names() -> Vec<&'static str> {
+    omit::RULES.iter().map(|r| r.name).chain(choose::CHOICES.iter().map(|c| c.name)).collect()
 }

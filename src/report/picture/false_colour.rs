@@ -94,7 +94,8 @@ fn label(x: f64) -> String {
 
 fn colour(share: f64) -> [u8; 3] {
     let last = COLOURS.len() - 1;
-    let at = (share.clamp(0.0, 1.0) * last as f64).min(last as f64 - 1e-9).max(0.0);
+    let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
+    let at = (share * last as f64).min(last as f64 - 1e-9);
     let (low, part) = (at as usize, at.fract());
     std::array::from_fn(|k| (COLOURS[low][k] + part * (COLOURS[low + 1][k] - COLOURS[low][k])).round() as u8)
 }

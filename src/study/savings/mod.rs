@@ -25,7 +25,7 @@ use super::StudyWatch;
 use super::converge::{ConvergeError, ConvergeOptions, FIRST_SAMPLES, TimeTo, converge};
 use crate::estimate::{EstimateError, Stop, Watch};
 use crate::measurement::measure;
-use crate::plan::{Plan, PlanError, PlanOptions, rule_names};
+use crate::plan::{Plan, PlanError, PlanOptions, reading_rule_names};
 use crate::scene::Scene;
 
 /// Plans are made anew until so many seconds or [`PLANNINGS`] are over.
@@ -126,7 +126,7 @@ pub struct SceneSavings {
     pub readings: usize,
     /// With all rules.
     pub planned: Cost,
-    /// Every rule, in the order of [`rule_names`].
+    /// Every rule, in the order of [`reading_rule_names`].
     pub rules: Vec<RuleInScene>,
     /// With none.
     pub naive: Cost,
@@ -200,7 +200,7 @@ pub fn savings(name: &str, scene: &Scene, options: &SavingsOptions, watch: &Stud
     let full = planned(scene, &PlanOptions::default(), watch)?;
     let naive = planned(scene, &PlanOptions { naive: true, without: Vec::new() }, watch)?;
     let mut without: Vec<(&'static str, Timed)> = Vec::new();
-    for rule in rule_names() {
+    for rule in reading_rule_names() {
         without.push((rule, planned(scene, &PlanOptions { naive: false, without: vec![rule.to_owned()] }, watch)?));
     }
     let again = planned(scene, &PlanOptions::default(), watch)?.seconds;

@@ -40,7 +40,7 @@ pub struct RuleSummary {
 /// All rules over all scenes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// In the order of [`crate::plan::rule_names`].
+    /// In the order of [`crate::plan::reading_rule_names`].
     pub rules: Vec<RuleSummary>,
     /// Factors of processor time of the naive plan.
     pub naive_times: Option<Spread>,
@@ -50,7 +50,7 @@ pub struct Summary {
     pub again_times: Option<Spread>,
 }
 
-/// Every rule with what it observes, in the order of [`crate::plan::rule_names`].
+/// Every rule with what it observes, in the order of [`crate::plan::reading_rule_names`].
 #[must_use]
 pub fn rule_sentences() -> Vec<(&'static str, &'static str)> {
     omit::RULES.iter().map(|r| (r.name, r.sentence)).chain(choose::CHOICES.iter().map(|c| (c.name, c.sentence))).collect()
