@@ -29,7 +29,7 @@ use etendue::quantity::air::wavelength_in_vacuum_nm;
 use etendue::report::json::to_json;
 use etendue::scene::{Scene, read_scene};
 
-const COMPARISONS: f64 = 500.0;
+const COMPARISONS: f64 = 600.0;
 
 /// What a scene is held to, besides its naive plan.
 struct Law {
@@ -505,7 +505,7 @@ fn every_file_says_what_it_is() {
             .filter_map(|f| lacks(&format!("scenes/{f}"), &["unit:", "orientation:", "source:", "licence:"])),
     );
     missing.extend(files_in("sensors", &[".ron"]).iter().filter_map(|f| lacks(&format!("sensors/{f}"), &["What it shows:", "Source:"])));
-    for folder in ["scenes", "sensors", "sensors/class-b", "sensors/directional-phi"] {
+    for folder in ["scenes", "sensors", "sensors/class-a", "sensors/class-b", "sensors/class-c", "sensors/class-l", "sensors/directional-phi"] {
         missing.extend(files_in(folder, &[".csv"]).iter().filter_map(|f| lacks(&format!("{folder}/{f}"), &curves)));
     }
     assert!(missing.is_empty(), "{}", missing.join("\n"));
