@@ -77,7 +77,7 @@ fn both_routes_agree_for_every_sensor_of_the_shelf() {
     // Cameras have sheets of their own.
     let meter = |file: &String| match device_from_file(&format!("sensors/{file}"), &Repository, None) {
         Ok(Device::Camera(_)) => None,
-        Ok(Device::Sensor(sensor)) => Some((file.clone(), sensor)),
+        Ok(Device::Sensor(sensor)) => Some((file.clone(), *sensor)),
         Err(problems) => panic!("{file}: {problems}"),
     };
     let meters: Vec<(String, Sensor)> = files.iter().filter_map(meter).collect();

@@ -13,7 +13,7 @@ use crate::sensor::camera::Camera;
 #[derive(Clone, Debug)]
 pub enum Device {
     /// `Sensor(…)`.
-    Sensor(Sensor),
+    Sensor(Box<Sensor>),
     /// `Camera(…)`.
     Camera(Box<Camera>),
 }
@@ -25,7 +25,7 @@ pub enum Device {
 pub fn device_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Result<Device, Diagnostics> {
     read_file(path, files, root, |value, path, reading| match value.name() {
         "Camera" => read_camera_body(value, path, reading).map(|camera| Device::Camera(Box::new(camera))),
-        _ => read_sensor_body(value, path, reading).map(Device::Sensor),
+        _ => read_sensor_body(value, path, reading).map(|sensor| Device::Sensor(Box::new(sensor))),
     })
 }
 

@@ -16,6 +16,10 @@
 //! to just past saturation: the longest is that of the camera, or that in which the dark current brings as much noise as the readout if it is
 //! longer, so that the dark current can be told from the noise.
 //!
+//! **Limits.** The computed saturation is that of a single pixel. The measured one is the level of largest variance, smeared by the PRNU and
+//! picked among noisy variances that rise slowly before the peak and fall steeply behind it: it lies about one standard uncertainty below on
+//! average, and so do SNR_max and DR. The lens is not measured, and its transmittance is not in η.
+//!
 //! ```
 //! use etendue::characterization::sheet::camera::{Options, camera_sheet};
 //! use etendue::{estimate::Watch, scene::{Device, MemoryFiles, device_from_file}};
