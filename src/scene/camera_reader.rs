@@ -91,7 +91,7 @@ fn read_camera_model(value: &Value, reading: &mut Reading) -> Option<Arc<Camera>
     read_camera_body(value, "camera", reading).map(Arc::new)
 }
 
-fn read_camera_body(value: &Value, name: &str, reading: &mut Reading) -> Option<Camera> {
+pub(super) fn read_camera_body(value: &Value, name: &str, reading: &mut Reading) -> Option<Camera> {
     if value.name() != "Camera" {
         let found = value.described();
         let help = if value.name() == "Sensor" {

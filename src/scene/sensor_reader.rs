@@ -21,31 +21,11 @@ use std::sync::Arc;
 use super::acceptance_reader::{read_acceptance, words_of_head};
 use super::channel_reader::read_channel;
 use super::decode::{Fields, Value};
-use super::diagnostic::Diagnostics;
 use super::document::Kind;
-use super::files::{Files, normalised, root_of};
 use super::observer_reader::{is_observer, read_observer};
 use super::reading::Reading;
 use super::readout_reader::read_readout;
 use crate::sensor::{Acceptance, Aperture, Channel, Photodiode, Sensor};
-
-/// Reads one sensor file and the files that it mentions, without a scene.
-///
-/// `path` is what `files` is asked for; the names in the file may not leave the folder `root`, by default as for a scene.
-///
-/// # Errors
-/// Every problem of every file, at least one.
-pub fn sensor_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Result<Sensor, Diagnostics> {
-    let path = normalised(path);
-    let root = root.map_or_else(|| root_of(&path), normalised);
-    let mut reading = Reading::new(files, &path, root);
-    let document = reading.first_document(&path, "sensor file");
-    let sensor = document.and_then(|document| read_sensor_body(&Value::root(&document), &path, &mut reading));
-    match sensor {
-        Some(sensor) if reading.problems.count() == 0 => Ok(sensor),
-        _ => Err(reading.problems.finish()),
-    }
-}
 
 /// The sensor of an instrument: the name of a file, or the sensor itself.
 pub(super) fn read_sensor(value: &Value, reading: &mut Reading) -> Option<Arc<Sensor>> {
@@ -73,7 +53,7 @@ pub(super) fn read_sensor(value: &Value, reading: &mut Reading) -> Option<Arc<Se
     None
 }
 
-fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<Sensor> {
+pub(super) fn read_sensor_body(value: &Value, name: &str, reading: &mut Reading) -> Option<Sensor> {
     let problems = &mut reading.problems;
     if value.name() != "Sensor" {
         let found = value.described();

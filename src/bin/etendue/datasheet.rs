@@ -1,22 +1,24 @@
 //! `etendue datasheet SENSOR`: every quality index, computed and measured.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
-use etendue::characterization::sheet::{DataSheet, Options, Subject, data_sheet};
+use etendue::characterization::sheet::camera::{self, camera_sheet};
+use etendue::characterization::sheet::{Options, SheetError, data_sheet};
 use etendue::estimate::Watch;
 use etendue::estimate::run::with_threads;
 use etendue::report::datasheet::{to_json, to_text};
-use etendue::scene::sensor_from_file;
+use etendue::report::emva::{sheet_to_json, sheet_to_text};
+use etendue::scene::{Device, device_from_file};
 
 use crate::measure::whole;
 use crate::{Failure, disk, output, print};
 
-/// The data sheet of a sensor: every quality index computed from its curves and measured on a virtual bench.
+/// The data sheet of a sensor or a camera: every quality index computed from its curves and measured on a virtual bench.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The sensor file.
+    /// A file that holds `Sensor(…)` or `Camera(…)`.
     sensor: String,
     /// How to write it.
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -33,6 +35,14 @@ pub(crate) struct Arguments {
     /// Step of the monochromator, 0.1 to 20 nm.
     #[arg(long, value_name = "NM", default_value = "1", allow_hyphen_values = true)]
     step: f64,
+    /// Wavelength of the flat field of a camera, nm in air, 100 to 20000; the peak of each channel by default.
+    #[arg(long, value_name = "NM", value_parser = wavelength_nm, allow_hyphen_values = true)]
+    wavelength: Option<f64>,
+}
+
+fn wavelength_nm(given: &str) -> Result<f64, String> {
+    let found = given.trim().parse().ok().filter(|nm| (100.0..=20_000.0).contains(nm));
+    found.ok_or_else(|| "a wavelength from 100 to 20000 nm, such as 525".to_owned())
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -44,39 +54,58 @@ enum Format {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let sensor = sensor_from_file(&arguments.sensor, &disk::Anywhere, None).map_err(|problems| Failure::Input(problems.to_string()))?;
+    let device = device_from_file(&arguments.sensor, &disk::Anywhere, None).map_err(|problems| Failure::Input(problems.to_string()))?;
     if let Some(folder) = &arguments.out {
         let help = "--out takes a folder that can be written";
         std::fs::create_dir_all(folder).map_err(|e| disk::unwritable(folder, &e, help))?;
     }
-    let sheet = arguments.sheet(Subject::Meter(sensor))?;
-    let written = match arguments.format {
-        Format::Text => to_text(&sheet),
-        Format::Json => to_json(&sheet),
+    let pages = match device {
+        Device::Sensor(_) if arguments.wavelength.is_some() => {
+            let words = "error: --wavelength is for cameras; a meter is led through all wavelengths, in steps that --step sets";
+            return Err(Failure::Input(words.to_owned()));
+        }
+        Device::Sensor(sensor) => {
+            let options = Options { seed: arguments.seed, step_nm: arguments.step };
+            let sheet = arguments.measured(|watch| data_sheet(&sensor, &options, watch))?;
+            Pages { text: to_text(&sheet), json: to_json(&sheet), pictures: pictures_of_meter(&sheet) }
+        }
+        Device::Camera(camera) => {
+            let options = camera::Options { seed: arguments.seed, wavelength_nm: arguments.wavelength };
+            let sheet = arguments.measured(|watch| camera_sheet(&camera, &options, watch))?;
+            Pages { text: sheet_to_text(&sheet), json: sheet_to_json(&sheet), pictures: pictures_of_camera(&sheet) }
+        }
     };
-    match &arguments.out {
-        Some(_) => arguments.save(&sheet),
-        None => print(&written),
+    match (&arguments.out, arguments.format) {
+        (Some(folder), _) => pages.save(folder),
+        (None, Format::Text) => print(&pages.text),
+        (None, Format::Json) => print(&pages.json),
     }
 }
 
 impl Arguments {
-    fn sheet(&self, subject: Subject) -> Result<DataSheet, Failure> {
+    fn measured<T: Send>(&self, sheet: impl FnOnce(&Watch<'_>) -> Result<T, SheetError> + Send) -> Result<T, Failure> {
         let bar = output::progress_bar();
         let start = Instant::now();
         let watch = Watch { now: &|| start.elapsed().as_secs_f64(), progress: &|share| bar.set_position((1000.0 * share) as u64) };
-        let options = Options { seed: self.seed, step_nm: self.step };
         let threads = self.threads.and_then(|n| usize::try_from(n).ok());
-        let sheet = with_threads(threads, || data_sheet(&subject, &options, &watch));
+        let sheet = with_threads(threads, || sheet(&watch));
         bar.finish_and_clear();
         sheet.map_err(|e| Failure::Input(format!("error: {}: {e}", self.sensor)))
     }
+}
 
-    fn save(&self, sheet: &DataSheet) -> Result<(), Failure> {
+/// A sheet as it is written.
+struct Pages {
+    text: String,
+    json: String,
+    pictures: Pictures,
+}
+
+impl Pages {
+    fn save(self, folder: &Path) -> Result<(), Failure> {
         let mut files: Vec<(String, Vec<u8>)> =
-            vec![("sheet.txt".to_owned(), to_text(sheet).into_bytes()), ("sheet.json".to_owned(), to_json(sheet).into_bytes())];
-        files.extend(pictures(sheet)?);
-        let Some(folder) = &self.out else { return Ok(()) };
+            vec![("sheet.txt".to_owned(), self.text.into_bytes()), ("sheet.json".to_owned(), self.json.into_bytes())];
+        files.extend(drawn(&self.pictures)?);
         for (name, bytes) in &files {
             let target = folder.join(name);
             disk::save(&target, bytes).map_err(|e| disk::unwritable(&target, &e, "--out takes a folder that can be written"))?;
@@ -88,19 +117,36 @@ impl Arguments {
 }
 
 #[cfg(feature = "plot")]
-fn pictures(sheet: &DataSheet) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+use etendue::report::{datasheet::chart::charts as pictures_of_meter, emva::chart::charts as pictures_of_camera};
+
+/// Charts with the stems of their files.
+#[cfg(feature = "plot")]
+type Pictures = Vec<(String, etendue::report::plot::chart::Chart)>;
+
+#[cfg(feature = "plot")]
+fn drawn(pictures: &Pictures) -> Result<Vec<(String, Vec<u8>)>, Failure> {
     use etendue::report::plot::{self, Size, Style, Theme};
     let failed = |e: plot::PlotError| Failure::Run(format!("error: {e}"));
     let mut files = Vec::new();
-    for (stem, chart) in etendue::report::datasheet::chart::charts(sheet) {
-        let svg = plot::svg(&chart, &Style { theme: Theme::Light, size: Size::Paper }).map_err(failed)?;
+    for (stem, chart) in pictures {
+        let svg = plot::svg(chart, &Style { theme: Theme::Light, size: Size::Paper }).map_err(failed)?;
         files.push((format!("{stem}.png"), plot::png(&svg, 2.0).map_err(failed)?));
         files.push((format!("{stem}.svg"), svg.into_bytes()));
     }
     Ok(files)
 }
 
+/// Without the feature `plot` there is nothing to draw.
 #[cfg(not(feature = "plot"))]
-fn pictures(_: &DataSheet) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+type Pictures = ();
+
+#[cfg(not(feature = "plot"))]
+fn pictures_of_meter(_: &etendue::characterization::sheet::DataSheet) -> Pictures {}
+
+#[cfg(not(feature = "plot"))]
+fn pictures_of_camera(_: &camera::CameraSheet) -> Pictures {}
+
+#[cfg(not(feature = "plot"))]
+fn drawn((): &Pictures) -> Result<Vec<(String, Vec<u8>)>, Failure> {
     Ok(Vec::new())
 }

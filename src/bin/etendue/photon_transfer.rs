@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use etendue::characterization::emva::{Camera, EmvaError, Figures, Series, Shot, photon_transfer};
+use etendue::characterization::emva::{Camera, EmvaError, Figures, PAST_SATURATION, Series, Shot, photon_transfer};
 use etendue::estimate::frames::expose_into;
 use etendue::estimate::run::with_threads;
 use etendue::estimate::{Stop, Watch};
@@ -20,8 +20,6 @@ use crate::measure::{failed, whole};
 use crate::output::save_at;
 use crate::{Failure, complain, disk, print};
 
-/// The longest exposure, in times that fill the well or reach the end of the ADC.
-const PAST_SATURATION: f64 = 1.04;
 /// The unit in which a channel that reads `PhotonIrradiance` indicates.
 const PHOTON_IRRADIANCE: &str = "µmol/(m² s)";
 /// Folder of the frames beside the descriptor.

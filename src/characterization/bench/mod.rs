@@ -12,7 +12,7 @@
 //! | `attenuator` | one lamp over decades of strength | Y(X)/X |
 //! | `sphere` | a parallel beam from all round | w(θ, φ) of a head |
 //! | `field` | a narrow beam across the edge of a cone; a bright surround with a black middle | half-angle, stray light |
-//! | `flat_field` | a uniform luminous hemisphere, sampled by rays | ∫ R cos θ dω |
+//! | `flat_field` | a uniform luminous hemisphere, sampled by rays; a uniform disc at an f-number | ∫ R cos θ dω; photons |
 //!
 //! Every reading passes through scene, plan, estimate and measurement: nothing here looks at the curves of the sensor. Uncertainties are
 //! those of the readings; what lies between the measured points is added by whoever computes an index (`sampling.rs`).

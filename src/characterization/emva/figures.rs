@@ -6,7 +6,7 @@ use super::{EmvaError, TransferPoint};
 use crate::sensor::pixel::QUANTISATION_DN2;
 
 /// Part of the signal at saturation up to which the slopes are fitted.
-const FITTED_UP_TO: f64 = 0.7;
+pub const FITTED_UP_TO: f64 = 0.7;
 /// Parts of the signal at saturation between which the linearity is judged.
 const LINEARITY: (f64, f64) = (0.05, 0.95);
 /// Temporal variance in the dark below which rounding hides the noise, DN² (EMVA 1288, 2.3).
@@ -217,8 +217,8 @@ pub(super) fn figures(points: Vec<TransferPoint>, dark: Spatial, bright: Spatial
         let by_variance = quotient(quotient(by_variance, gain), gain);
         sheet.add("dark_current_by_variance_e_s", ["μ_I.var", "dark current, from the variance", "e⁻/s"], by_variance, None);
     }
-    sheet.add("threshold_photons", ["μ_p.min", "absolute sensitivity threshold, exact", "photons"], threshold_photons, hidden);
-    sheet.add("threshold_e", ["μ_e.min", "absolute sensitivity threshold, exact", "e⁻"], threshold_e, hidden);
+    sheet.add("threshold_photons", ["μ_p.min", "absolute threshold, exact", "photons"], threshold_photons, hidden);
+    sheet.add("threshold_e", ["μ_e.min", "absolute threshold, exact", "e⁻"], threshold_e, hidden);
     sheet.add("saturation_photons", ["μ_p.sat", "saturation capacity", "photons"], product(saturation_photons, relative_photons), None);
     sheet.add("saturation_e", ["μ_e.sat", "saturation capacity", "e⁻"], saturation_e, None);
     sheet.add("largest_snr", ["SNR_max", "largest signal-to-noise ratio", "1"], largest_snr, None);

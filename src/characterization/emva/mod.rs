@@ -45,13 +45,18 @@
 mod error;
 mod figures;
 mod fit;
+mod model;
 pub mod statistics;
 #[cfg(test)]
 mod tests;
 
 pub use error::EmvaError;
-pub use figures::{Figure, Figures};
+pub use figures::{FITTED_UP_TO, Figure, Figures};
+pub use model::expected;
 use statistics::{Pair, Spatial, Stack};
+
+/// The longest exposure of a series, in times that fill the well or reach the end of the ADC: just past saturation.
+pub const PAST_SATURATION: f64 = 1.04;
 
 /// Light and time of a level.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! The data sheet of a sensor: every index computed from the curves and measured on the virtual bench.
+//! The data sheet of a sensor: every index computed from the curves and measured on the virtual bench. A camera has one of its own: [`camera`].
 //!
 //! ```text
 //! curves ── exact integrals ──────────────────→ computed ┐
@@ -11,23 +11,25 @@
 //! | `spectral` | f1′, u, r, mean wavelength, mismatch factors of lamps |
 //! | `readout` | f3, f11 |
 //! | `directional` | f2, flat field, measuring field |
+//! | `camera` | the figures of EMVA 1288 of a camera |
 //! | `mod.rs` | indices, classes, the sheet as a whole |
 //!
 //! ```
-//! use etendue::characterization::sheet::{Options, Subject, data_sheet};
+//! use etendue::characterization::sheet::{Options, data_sheet};
 //! use etendue::{estimate::Watch, scene};
 //!
 //! let files = scene::MemoryFiles::new().with("ideal.ron", r#"Sensor(title: "ideal", aperture: Point, acceptance: Cosine,
 //!     channels: [(name: "E_v", responsivity: "V", reads: Illuminance)])"#);
 //! let sensor = scene::sensor_from_file("ideal.ron", &files, None)?;
 //! let watch = Watch { now: &|| 0.0, progress: &|_| {} };
-//! let sheet = data_sheet(&Subject::Meter(sensor), &Options::default(), &watch)?;
+//! let sheet = data_sheet(&sensor, &Options::default(), &watch)?;
 //! let f1 = &sheet.channels[0].indices[0];
 //! assert_eq!(f1.symbol, "f1′");
 //! assert!(f1.measured.value <= 2.0 * f1.measured.standard_uncertainty);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod camera;
 mod directional;
 mod readout;
 mod spectral;
@@ -43,19 +45,13 @@ use super::bench::goniometer::Goniogram;
 use super::bench::{Bench, BenchError};
 use super::class_limits::{self, Classified, Limits};
 use super::directional_mismatch::DirectionalError;
+use super::emva::EmvaError;
 use super::spectral_mismatch::MismatchError;
 use super::{Figure, figure::in_quadrature};
 use crate::estimate::Watch;
 use crate::quantity::Measurand;
 use crate::sensor::{Acceptance, Sensor};
 use crate::spectrum::SpectrumError;
-
-/// What a data sheet is made of. Cameras, whose sheet is that of EMVA 1288, are another variant.
-#[derive(Clone, Debug)]
-pub enum Subject {
-    /// A sensor that indicates a photometric or radiometric quantity.
-    Meter(Sensor),
-}
 
 /// How the bench is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -204,6 +200,22 @@ pub enum SheetError {
     },
     /// The directional response has no index.
     Directional(DirectionalError),
+    /// The camera has no pixel, so it takes no frames.
+    NoPixel,
+    /// A channel of a camera sees nothing of the light of the flat field.
+    Blind {
+        /// Name of the channel.
+        channel: String,
+        /// Wavelength in air, nm.
+        wavelength_nm: f64,
+    },
+    /// The frames of a camera give no figures.
+    Frames {
+        /// Name of the channel.
+        channel: String,
+        /// What is wrong.
+        error: EmvaError,
+    },
 }
 
 impl fmt::Display for SheetError {
@@ -216,6 +228,14 @@ impl fmt::Display for SheetError {
             }
             Self::Spectral { channel, error } => write!(f, "channel `{channel}` has no mismatch index: {error}"),
             Self::Directional(error) => write!(f, "the directional response has no index: {error}"),
+            Self::NoPixel => f.write_str(
+                "the camera has no `pixel`, so it gives expected electrons and no frames to measure; add `pixel: Pixel(gain_dn_per_e: 0.35, \
+                 full_well_e: 10500, bits: 12, black_dn: 64, read_noise_e: 3, dark_current_e_s: 5, dsnu_e: 1.5, prnu: 0.006)`",
+            ),
+            Self::Blind { channel, wavelength_nm } => {
+                write!(f, "channel `{channel}` has no quantum efficiency at {wavelength_nm} nm; choose a wavelength in nm that it sees")
+            }
+            Self::Frames { channel, error } => write!(f, "the frames of channel `{channel}` give no figures: {error}"),
         }
     }
 }
@@ -240,16 +260,11 @@ impl From<DirectionalError> for SheetError {
     }
 }
 
-/// Computes and measures the data sheet of a subject. `watch.progress` is told the share that is done.
+/// Computes and measures the data sheet of a sensor. `watch.progress` is told the share that is done.
 ///
 /// # Errors
 /// [`SheetError`].
-pub fn data_sheet(subject: &Subject, options: &Options, watch: &Watch<'_>) -> Result<DataSheet, SheetError> {
-    let Subject::Meter(sensor) = subject;
-    meter(sensor, options, watch)
-}
-
-fn meter(sensor: &Sensor, options: &Options, watch: &Watch<'_>) -> Result<DataSheet, SheetError> {
+pub fn data_sheet(sensor: &Sensor, options: &Options, watch: &Watch<'_>) -> Result<DataSheet, SheetError> {
     if sensor.channels.is_empty() {
         return Err(SheetError::NoChannel);
     }

@@ -9,7 +9,7 @@
 #[cfg(feature = "plot")]
 pub mod chart;
 mod json;
-mod text;
+pub(super) mod text;
 
 pub use json::to_json;
 pub use text::to_text;

@@ -129,7 +129,7 @@ fn plain(figure: &Figure) -> String {
 }
 
 /// A value with its uncertainty, rounded to two digits of it; one that is only arithmetic does not stretch the value.
-fn number(figure: &Figure) -> String {
+pub(in crate::report) fn number(figure: &Figure) -> String {
     let (value, u) = (figure.value, figure.standard_uncertainty);
     if value.abs() <= u && u < ARITHMETIC {
         return format!("0 ± {u:.0e}");
@@ -147,7 +147,7 @@ fn trimmed(x: f64) -> String {
 }
 
 /// Columns aligned with blanks.
-fn aligned<const N: usize>(rows: &[[String; N]]) -> Vec<String> {
+pub(in crate::report) fn aligned<const N: usize>(rows: &[[String; N]]) -> Vec<String> {
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..N).map(width).collect();
     let line = |row: &[String; N]| row.iter().zip(&widths).fold(String::new(), |line, (cell, width)| format!("{line}  {cell:width$}"));
@@ -155,7 +155,7 @@ fn aligned<const N: usize>(rows: &[[String; N]]) -> Vec<String> {
 }
 
 /// Words of a text on lines that fit the page, each after the indent.
-fn wrapped(text: &str, indent: &str) -> Vec<String> {
+pub(in crate::report) fn wrapped(text: &str, indent: &str) -> Vec<String> {
     let mut lines = vec![indent.to_owned()];
     for word in text.split_whitespace() {
         let last = lines.len() - 1;

@@ -3,12 +3,18 @@
 //! | file | what |
 //! |---|---|
 //! | `text.rs` | a table for a person |
-//! | `json.rs` | figures and photon-transfer curve, for programs |
+//! | `sheet.rs` | the data sheet of a camera on a page of 100 columns |
+//! | `json.rs` | figures and photon-transfer curve, data sheet of a camera, for programs |
+//! | `chart.rs` | variance over mean (feature `plot`) |
 //! | `descriptor.rs` | which frame is which: the text file that the package emva1288 reads |
 
+#[cfg(feature = "plot")]
+pub mod chart;
 pub mod descriptor;
 mod json;
+mod sheet;
 mod text;
 
-pub use json::to_json;
+pub use json::{sheet_to_json, to_json};
+pub use sheet::sheet_to_text;
 pub use text::to_text;

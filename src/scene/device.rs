@@ -1,0 +1,56 @@
+//! A file of the shelf, whatever it holds: a sensor or a camera.
+
+use super::camera_reader::read_camera_body;
+use super::decode::Value;
+use super::diagnostic::Diagnostics;
+use super::files::{Files, normalised, root_of};
+use super::reading::Reading;
+use super::sensor_reader::read_sensor_body;
+use crate::sensor::Sensor;
+use crate::sensor::camera::Camera;
+
+/// What a file of the shelf holds.
+#[derive(Clone, Debug)]
+pub enum Device {
+    /// `Sensor(…)`.
+    Sensor(Box<Sensor>),
+    /// `Camera(…)`.
+    Camera(Box<Camera>),
+}
+
+/// Reads a file that holds `Sensor(…)` or `Camera(…)` and the files that it mentions, as [`sensor_from_file`] does.
+///
+/// # Errors
+/// Every problem of every file, at least one.
+pub fn device_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Result<Device, Diagnostics> {
+    read_file(path, files, root, |value, path, reading| match value.name() {
+        "Camera" => read_camera_body(value, path, reading).map(|camera| Device::Camera(Box::new(camera))),
+        _ => read_sensor_body(value, path, reading).map(|sensor| Device::Sensor(Box::new(sensor))),
+    })
+}
+
+/// Reads one sensor file and the files that it mentions, without a scene.
+///
+/// `path` is what `files` is asked for; the names in the file may not leave the folder `root`, by default as for a scene.
+///
+/// # Errors
+/// Every problem of every file, at least one.
+pub fn sensor_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Result<Sensor, Diagnostics> {
+    read_file(path, files, root, read_sensor_body)
+}
+
+fn read_file<T>(
+    path: &str,
+    files: &dyn Files,
+    root: Option<&str>,
+    read: impl FnOnce(&Value, &str, &mut Reading) -> Option<T>,
+) -> Result<T, Diagnostics> {
+    let path = normalised(path);
+    let root = root.map_or_else(|| root_of(&path), normalised);
+    let mut reading = Reading::new(files, &path, root);
+    let document = reading.first_document(&path, "sensor file");
+    match document.and_then(|document| read(&Value::root(&document), &path, &mut reading)) {
+        Some(found) if reading.problems.count() == 0 => Ok(found),
+        _ => Err(reading.problems.finish()),
+    }
+}
