@@ -505,7 +505,9 @@ fn every_file_says_what_it_is() {
             .filter_map(|f| lacks(&format!("scenes/{f}"), &["unit:", "orientation:", "source:", "licence:"])),
     );
     missing.extend(files_in("sensors", &[".ron"]).iter().filter_map(|f| lacks(&format!("sensors/{f}"), &["What it shows:", "Source:"])));
-    for folder in ["scenes", "sensors", "sensors/class-a", "sensors/class-b", "sensors/class-c", "sensors/class-l", "sensors/directional-phi"] {
+    for folder in
+        ["scenes", "sensors", "sensors/class-a", "sensors/class-b", "sensors/class-c", "sensors/class-l", "sensors/directional-phi"]
+    {
         missing.extend(files_in(folder, &[".csv"]).iter().filter_map(|f| lacks(&format!("{folder}/{f}"), &curves)));
     }
     assert!(missing.is_empty(), "{}", missing.join("\n"));

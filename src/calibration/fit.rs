@@ -28,6 +28,10 @@ const DARK: f64 = 0.05;
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Lengths per factor e in the first search, and in the second about the best.
 const LENGTHS_PER_E: (f64, f64) = (2.5, 5.0);
+/// Largest reading and uncertainty.
+const LARGEST: f64 = 1e100;
+/// Standard deviations of χ² beyond which a fit is said not to hold.
+const MISFIT: f64 = 6.0;
 /// A search ends when ln p has fallen by this much below its best.
 const FALLEN: f64 = 12.0;
 
@@ -156,10 +160,22 @@ impl FittedCurve {
 /// ```
 pub fn fit(exposures: &Exposures, readings: &[Readings], options: &FitOptions) -> Result<Fitted, CalibrationError> {
     let data = whitened(exposures, readings)?;
-    match options.chooser {
-        Chooser::Evidence => by_evidence(exposures, readings, &options.prior, &data),
-        Chooser::Classic(rule) => by_rule(exposures, readings, rule, &data),
+    let mut fitted = match options.chooser {
+        Chooser::Evidence => by_evidence(exposures, readings, &options.prior, &data)?,
+        Chooser::Classic(rule) => by_rule(exposures, readings, rule, &data)?,
+    };
+    for (curve, readings) in fitted.curves.iter().zip(readings) {
+        let m = exposures.len() as f64;
+        // Readings without noise are held to their rounding, which says nothing of the model.
+        if readings.standard_uncertainties.iter().all(|u| *u > 0.0) && curve.chi_squared > m + MISFIT * (2.0 * m).sqrt() {
+            fitted.remarks.push(format!(
+                "{}: the curve does not explain the readings (χ² = {:.3e} of {m} readings), so its uncertainty means nothing: the stated \
+                 uncertainties, the exposures or the rule for the smoothness are wrong",
+                curve.channel, curve.chi_squared
+            ));
+        }
     }
+    Ok(fitted)
 }
 
 fn whitened(exposures: &Exposures, readings: &[Readings]) -> Result<Whitened, CalibrationError> {
@@ -179,6 +195,10 @@ fn whitened(exposures: &Exposures, readings: &[Readings]) -> Result<Whitened, Ca
         }
         for (i, (y, u)) in r.values.iter().zip(&r.standard_uncertainties).enumerate() {
             let which = format!("channel `{}`, exposure {} (`{}`)", r.channel, i + 1, exposures.labels().get(i).map_or("", |l| l));
+            // Squares of what is beyond leave the range of numbers.
+            if y.abs() > LARGEST || *u > LARGEST {
+                return unusable(format!("{which}: {y:e} ± {u:e} is beyond what can be fitted; allowed: up to {LARGEST:e}"));
+            }
             if !y.is_finite() {
                 return unusable(format!("{which}: the reading is {y}; leave the exposure out or give a number"));
             }

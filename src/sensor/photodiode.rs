@@ -124,11 +124,23 @@ pub enum Nonlinearity {
 }
 
 impl Nonlinearity {
-    /// What becomes of a current, A.
+    /// The current beyond which nothing rises, A: where a parabola that opens downwards turns; infinite otherwise.
+    #[must_use]
+    pub fn turns_at_a(&self) -> f64 {
+        match *self {
+            Nonlinearity::Quadratic { per_a } if per_a < 0.0 => -0.5 / per_a,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// What becomes of a current, A. Beyond the turn of a parabola it stays at its top: no detector reads less of more light.
     #[must_use]
     pub fn of_a(&self, current_a: f64) -> f64 {
         match *self {
-            Nonlinearity::Quadratic { per_a } => current_a * (1.0 + per_a * current_a),
+            Nonlinearity::Quadratic { per_a } => {
+                let current_a = current_a.min(self.turns_at_a());
+                current_a * (1.0 + per_a * current_a)
+            }
             Nonlinearity::Saturating { limit_a } => current_a / (1.0 + current_a / limit_a),
         }
     }
@@ -321,8 +333,10 @@ impl Photodiode {
         state(Deviation::Nonlinearity, bent_a - current_a);
         state(Deviation::Range, range.error * bent_a);
         state(Deviation::Saturation, (voltage_v - free_v) / range.feedback_ohm);
-        let crests = self.modulation.is_some_and(|m| self.voltage_v(range, photocurrent_a * (1.0 + m.depth) + dark_a) > limit_v);
-        let saturation = match (free_v > limit_v, crests) {
+        let turn_a = self.nonlinearity.map_or(f64::INFINITY, |n| n.turns_at_a());
+        let cut = |current_a: f64| self.voltage_v(range, current_a) > limit_v || current_a > turn_a;
+        let crests = self.modulation.is_some_and(|m| cut(photocurrent_a * (1.0 + m.depth) + dark_a));
+        let saturation = match (cut(current_a), crests) {
             (true, _) => Some(Saturation::Whole),
             (false, true) => Some(Saturation::Crests),
             (false, false) => None,
@@ -337,7 +351,8 @@ impl Photodiode {
     pub fn slope(&self, range: usize, photocurrent_a: f64) -> f64 {
         let Some(range) = self.ranges.get(range) else { return f64::NAN };
         let current_a = photocurrent_a + self.dark_a();
-        if self.voltage_v(*range, current_a) > self.limit_v() {
+        let turn_a = self.nonlinearity.map_or(f64::INFINITY, |n| n.turns_at_a());
+        if self.voltage_v(*range, current_a) > self.limit_v() || current_a > turn_a {
             return 0.0;
         }
         let slope = match self.nonlinearity {

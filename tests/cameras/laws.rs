@@ -96,9 +96,20 @@ fn the_image_of_a_point_source_holds_all_its_light_through_the_pupil() {
         let things =
             "sources: [(name: \"star\", shape: Point, at: (0.00011, 2, 0.00007), strength: WattsPerSteradian(1e-3), spectrum: Line(550))],";
         let frame = taken(&scene(things, &camera(lens, [101, 101]), ""), 16, 6);
-        let radius: f64 = if lens.starts_with("Pin") { 5e-5 } else { 0.05 / 8.0 };
-        let solid_angle = 2.0 * PI * (1.0 - 2.0 / 2.0f64.hypot(radius));
-        let expected = electrons_per_irradiance() / 25e-12 * 1e-3 * solid_angle;
+        // Per ring of the pupil dA cosθ/r² before the lens; behind it counts cos⁴θ′, as for the radiance of a disc around the point.
+        let (radius, behind): (f64, fn(f64) -> f64) = match (sharp, lens.starts_with("Pin")) {
+            (_, true) => (5e-5, |rho| rho / 2.0),
+            (true, _) => (0.05 / 8.0, |rho| rho * (1.0 / 0.05 - 1.0 / 2.0)),
+            (false, _) => (0.05 / 8.0, |rho| rho * ((1.0 / 0.05 - 1.0) + (1.0 - 1.0 / 2.0))),
+        };
+        let cos = |tangent: f64| 1.0 / 1f64.hypot(tangent);
+        let ring = |k: u32| {
+            let rho = (f64::from(k) + 0.5) / 4000.0 * radius;
+            let (before, after) = (cos(rho / 2.0), cos(behind(rho)));
+            2.0 * PI * rho * radius / 4000.0 * before.powi(3) / 4.0 * (after / before).powi(4)
+        };
+        let received: f64 = (0..4000).map(ring).sum();
+        let expected = electrons_per_irradiance() / 25e-12 * 1e-3 * received;
         let plane = &frame.planes[0];
         let (sum, u2) = plane.expected_e.iter().zip(&plane.standard_uncertainty_e).fold((0.0, 0.0), |(s, q), (e, u)| (s + e, q + u * u));
         let lit = plane.expected_e.iter().filter(|e| **e > 0.0).count();
@@ -119,10 +130,14 @@ fn the_sun_seen_itself_lands_where_the_lens_puts_it() {
     let lit: Vec<usize> = plane.expected_e.iter().enumerate().filter(|(_, e)| **e > 0.0).map(|(i, _)| i).collect();
     // 100 µm to the right and 200 µm up: 20 columns and 40 rows from the middle.
     assert_eq!(lit, [(50 - 40) * 101 + 50 + 20]);
-    let area = PI * (0.01f64 / 8.0).powi(2);
+    // E₀ cosθ cos⁴θ′/cos⁴θ over the pupil: ∫ v⁴/d⁴ dA is v² times the projected solid angle of the pupil from the pixel.
+    let (v2, a2, r2) = (1e-4f64, (100e-6f64).powi(2) + (200e-6f64).powi(2), (0.01f64 / 8.0).powi(2));
+    let root = ((a2 + v2 + r2).powi(2) - 4.0 * a2 * r2).sqrt();
+    let area = v2 * PI / 2.0 * (1.0 - (a2 + v2 - r2) / root);
     let cos = 1.0 / (1.0f64 + 1e-4 + 4e-4).sqrt();
-    let expected = electrons_per_irradiance() / 25e-12 * 1e-3 * area * cos;
-    assert!((plane.expected_e[lit[0]] / expected - 1.0).abs() < 1e-9, "{} instead of {expected}", plane.expected_e[lit[0]]);
+    let expected = electrons_per_irradiance() / 25e-12 * 1e-3 * area * cos.powi(-3);
+    let (found, u) = (plane.expected_e[lit[0]], plane.standard_uncertainty_e[lit[0]]);
+    assert!(u < 1e-4 * expected && (found - expected).abs() <= 6.0 * u + 1e-9 * expected, "{found} ± {u} instead of {expected}");
 }
 
 #[test]
@@ -173,4 +188,28 @@ fn lights_add_up_and_bits_depend_on_the_seed_alone() {
     }
     assert_eq!(left.planes, alone.planes);
     assert_ne!(left.planes, take(&panel(-1.0), 7).planes);
+}
+
+#[test]
+fn a_lamp_that_is_hardly_a_pixel_is_found_and_a_point_is_its_limit() {
+    let lens = "Thin(focal_length_mm: 50, f_number: 1, focus_m: 2)";
+    let total = |things: &str| {
+        let plane = taken(&scene(things, &camera(lens, [31, 31]), ""), 8, 3).planes.swap_remove(0);
+        let u2: f64 = plane.standard_uncertainty_e.iter().map(|u| u * u).sum();
+        (plane.expected_e.iter().sum::<f64>(), u2.sqrt())
+    };
+    let at = "at: (0, 2, 0)";
+    let (point, u) =
+        total(&format!("sources: [(name: \"star\", shape: Point, {at}, strength: WattsPerSteradian(1e-3), spectrum: Line(550))],"));
+    // Images from a thousandth of a pixel to nine pixels wide: traced from the lamp up to four, looked for from the pixels beyond.
+    for radius in [1e-7, 1e-5, 1e-4, 3.5e-4, 9e-4] {
+        let radiance = 1e-3 / (PI * radius * radius);
+        let disc = format!(
+            "sources: [(name: \"star\", shape: Disc({radius}), {at}, facing: (0, -1, 0), strength: Radiance({radiance}), spectrum: Line(550))],"
+        );
+        let (value, u_disc) = total(&disc);
+        // A disc sends less askew than a point: cosθ over a pupil of ± 0.7°.
+        assert!(u_disc > 0.0 && u_disc < 0.05 * point, "{radius}: {value} ± {u_disc}");
+        assert!((value - point).abs() <= 6.0 * u.hypot(u_disc) + 2e-4 * point, "{radius}: {value} ± {u_disc}, a point {point}");
+    }
 }

@@ -58,7 +58,11 @@ enum Format {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let files = if arguments.scenes.is_empty() { shelf()? } else { arguments.scenes.clone() };
-    let scenes = read(&files, arguments.root.as_deref())?;
+    let mut scenes = read(&files, arguments.root.as_deref())?;
+    if arguments.scenes.is_empty() {
+        // What rules save is counted on readings of instruments; pictures have rules of their own.
+        scenes.retain(|(_, scene)| !scene.instruments.is_empty());
+    }
     if arguments.out.is_some() && arguments.out == arguments.markdown {
         return Err(Failure::Input("error: --out and --markdown name the same file\n  = help: give them a file each".to_owned()));
     }

@@ -206,7 +206,7 @@ impl<'a> Stage<'a> {
         seed: u64,
     ) -> Stage<'a> {
         let view = View::of(placed);
-        let shades = Shades::new(scene, plan);
+        let shades = Shades::new(scene, plan, &point_image::traced(scene, &view));
         let images = PointImages::new(scene, world, &view, &shades, sampling, seed, camera);
         let paths = plan.spectral.as_ref().filter(|_| plan.needs_paths()).map(|spectral| {
             let sampled = |s: usize| plan.first[s] == FirstReflection::Sampled;

@@ -32,7 +32,8 @@ pub(super) struct Shades<'a> {
 }
 
 impl<'a> Shades<'a> {
-    pub(super) fn new(scene: &'a Scene, plan: &CameraPlan) -> Shades<'a> {
+    /// `traced`: sources whose own light is traced to the sensor.
+    pub(super) fn new(scene: &'a Scene, plan: &CameraPlan, traced: &[bool]) -> Shades<'a> {
         let channels = plan.responsivities.len();
         let mut weights: Vec<Vec<f64>> = Vec::new();
         for (s, source) in scene.sources.iter().enumerate() {
@@ -46,7 +47,7 @@ impl<'a> Shades<'a> {
             scene.elements.iter().map(|e| [(e.front as u32, None), (e.back as u32, None)]).collect();
         let mut emitted: Vec<Vec<f64>> = Vec::new();
         let mut sky = vec![0.0; channels];
-        for (source, weights) in scene.sources.iter().zip(&weights) {
+        for ((source, weights), _) in scene.sources.iter().zip(&weights).zip(traced).filter(|(_, traced)| !**traced) {
             let add = |row: &mut Vec<f64>| row.iter_mut().zip(weights).for_each(|(sum, w)| *sum += w);
             match &source.emitter {
                 Emitter::Environment => add(&mut sky),
