@@ -138,5 +138,8 @@ fn the_command_takes_cameras() {
     assert!(words.contains("without.ron") && words.contains("add `pixel: Pixel("), "{words}");
     let output = etendue(&["datasheet", "sensors/mono-camera.ron", "--wavelength", "0"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("such as 525"));
+    let output = etendue(&["datasheet", "sensors/pixels/monochrome-12-bit.ron"]);
+    let words = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(2) && words.contains("`Sensor(…)` or `Camera(…)`, not `Pixel(…)`"), "{words}");
     assert_eq!(etendue(&["datasheet", "sensors/class-b-lux-meter.ron", "--wavelength", "550"]).status.code(), Some(2));
 }

@@ -25,7 +25,17 @@ pub enum Device {
 pub fn device_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Result<Device, Diagnostics> {
     read_file(path, files, root, |value, path, reading| match value.name() {
         "Camera" => read_camera_body(value, path, reading).map(|camera| Device::Camera(Box::new(camera))),
-        _ => read_sensor_body(value, path, reading).map(|sensor| Device::Sensor(Box::new(sensor))),
+        "Sensor" => read_sensor_body(value, path, reading).map(|sensor| Device::Sensor(Box::new(sensor))),
+        _ => {
+            let found = value.described();
+            value.problem_at(
+                &value.name_span(),
+                &mut reading.problems,
+                format!("a file with a data sheet holds `Sensor(…)` or `Camera(…)`, not {found}"),
+                "write `Sensor(aperture: …, acceptance: …, channels: […])` or `Camera(lens: …, columns: …, rows: …, pixel: Pixel(…), …)`",
+            );
+            None
+        }
     })
 }
 

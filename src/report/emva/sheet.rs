@@ -23,7 +23,7 @@ pub fn sheet_to_text(sheet: &CameraSheet) -> String {
     lines.push(String::new());
     let definitions = "Definitions: EMVA 1288 release 4.0 linear, as the package emva1288 1.0.2 computes it; the text of the standard was not \
                        at hand. η counts photons on the whole pixel. The linear camera model has no linearity error; its \
-                       saturation is that of a single pixel, and the largest of noisy variances is read off up to about one u below it.";
+                       saturation is that of a single pixel, and the largest of noisy variances is read off about one u below it on average.";
     lines.extend(wrapped(definitions, "  "));
     lines.iter().map(|line| format!("{}\n", line.trim_end())).collect()
 }
