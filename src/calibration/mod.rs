@@ -17,7 +17,7 @@
 //! | [`non_negative`] | the most plausible curve that is nowhere negative |
 //! | [`propagation`] | what a curve is used for, with its uncertainty |
 //! | [`suggestion`] | what a further reading would take from the covariance |
-//! | [`fit`] | all of it, from exposures and readings to a fitted curve |
+//! | [`mod@fit`] | all of it, from exposures and readings to a fitted curve |
 //!
 //! Works on real and on simulated readings alike; knows no scenes and no rays.
 
