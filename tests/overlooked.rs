@@ -227,3 +227,29 @@ fn two_rows_of_a_table_and_many_are_the_same_paint() {
         assert!(reading.standard_uncertainty() < 0.01 * truth);
     }
 }
+
+#[test]
+fn a_spot_that_no_sample_looked_through_has_a_bound() {
+    // A lamp behind the plane of focus: only the middle of the pupil, a share of 1e-4, sees it through the field.
+    let sensor = r#"Sensor(title: "spot", aperture: Disc(radius_mm: 5), acceptance: Spot(field_deg: 0.003, focus_m: 1, edge: 0),
+        channels: [(name: "L", responsivity: 1.0, reads: Radiance)])"#;
+    let text = format!(
+        r#"Scene(
+            sources: [(name: "lamp", shape: Point, at: (0, 0, 2), strength: WattsPerSteradian(1), spectrum: Line(550))],
+            instruments: [(name: "m", sensor: {sensor}, at: (0, 0, 0), facing: (0, 0, 1))],
+        )"#
+    );
+    // I/r² over a disc of the pupil twice as wide as the field, over the étendue of the field: 4 I/(r² π f² tan² β) · …
+    let field: f64 = 0.0015f64.to_radians().tan();
+    let truth = 0.25 * (2.0 * field / 0.005).powi(2) / (PI * field * field);
+    for samples in [256, 1 << 20] {
+        let reading = &read(&text, samples)[0];
+        assert!(reading.expanded.expanded_uncertainty > 0.0, "{samples}: {} ± 0", reading.value);
+        assert!(
+            (reading.value - truth).abs() <= 1.5 * reading.expanded.expanded_uncertainty,
+            "{samples}: {} ± {} instead of {truth}",
+            reading.value,
+            reading.expanded.expanded_uncertainty
+        );
+    }
+}

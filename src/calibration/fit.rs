@@ -12,6 +12,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::error::CalibrationError;
 use super::evidence::{ClassicRule, RulePoint, Trial, Whitened, classic_scale, rule_points, weighted};
 use super::exposures::{Exposures, Readings};
 use super::non_negative::nearest;
@@ -53,29 +54,6 @@ pub struct FitOptions {
     /// How the smoothness is chosen.
     pub chooser: Chooser,
 }
-
-/// Why there is no fit.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum CalibrationError {
-    /// Readings that cannot be used: which, and why.
-    Readings(String),
-    /// No exposure shines where the curve is sought.
-    NothingSeen,
-    /// The numbers leave their range, or the solver finds nothing.
-    Numbers(String),
-}
-
-impl std::fmt::Display for CalibrationError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Readings(what) => f.write_str(what),
-            Self::NothingSeen => f.write_str("no exposure has light where the curve is sought; give spectra that overlap its wavelengths"),
-            Self::Numbers(what) => write!(f, "the fit fails: {what}"),
-        }
-    }
-}
-
-impl std::error::Error for CalibrationError {}
 
 /// A fitted curve.
 #[derive(Clone, Debug)]

@@ -17,10 +17,12 @@
 //! | [`non_negative`] | the most plausible curve that is nowhere negative |
 //! | [`propagation`] | what a curve is used for, with its uncertainty |
 //! | [`suggestion`] | what a further reading would take from the covariance |
+//! | [`error`] | why readings cannot be fitted |
 //! | [`mod@fit`] | all of it, from exposures and readings to a fitted curve |
 //!
 //! Works on real and on simulated readings alike; knows no scenes and no rays.
 
+pub mod error;
 pub mod evidence;
 pub mod exposures;
 pub mod fit;
@@ -31,6 +33,7 @@ pub mod prior;
 pub mod propagation;
 pub mod suggestion;
 
+pub use error::CalibrationError;
 pub use exposures::{Exposures, Readings};
-pub use fit::{CalibrationError, Chooser, FitOptions, Fitted, FittedCurve, fit};
+pub use fit::{Chooser, FitOptions, Fitted, FittedCurve, fit};
 pub use prior::PriorKind;

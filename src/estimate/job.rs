@@ -186,7 +186,9 @@ impl Job<'_> {
         let samples = f64::from(progress.points) * REPLICATES as f64;
         let potential: f64 = progress.potential.iter().sum();
         match self {
-            Job::Paths { .. } | Job::Source(SourceJob { tested: false, .. }) => None,
+            Job::Paths { .. } => None,
+            // Where nothing blocks, connections vary without gaps; that none was accepted says only that the acceptance is narrow.
+            Job::Source(SourceJob { tested: false, .. }) if progress.connections > 0 => None,
             Job::Source(_) | Job::Sky { .. } => {
                 let n = progress.connections as f64;
                 if progress.connections == 0 {

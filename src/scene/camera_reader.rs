@@ -36,9 +36,11 @@ use super::factor_range::{is_zero, outside_of};
 use super::pixel_reader::read_pixel;
 use super::placement::read_facing;
 use super::reading::Reading;
+use super::responsivity_reader::read_curve;
 use super::spectrum_reader::read_factor;
 use crate::math::DVec3;
 use crate::naming::suggestion;
+use crate::sensor::ResponsivityKind;
 use crate::sensor::camera::{Camera, ColourChannel, Lens, MOST_PIXELS, Mosaic};
 use crate::spectrum::{Factor, Outside};
 
@@ -210,6 +212,20 @@ fn read_share(value: &Value, what: &str, reading: &mut Reading) -> Option<Factor
     Some(factor)
 }
 
+/// A quantum efficiency; a file that states another unit is refused.
+fn read_efficiency(value: &Value, reading: &mut Reading) -> Option<Factor> {
+    let (_, stated, _) = read_curve(value, reading)?;
+    if let Some((_, ResponsivityKind::AmperesPerWatt)) = stated {
+        value.problem(
+            &mut reading.problems,
+            "the file says that its values are in A/W, but a quantum efficiency is in electrons per photon",
+            "multiply them by h c/(e n λ), 1239.8/λ for λ in nm, or correct `# unit:` in the file",
+        );
+        return None;
+    }
+    read_share(value, "the quantum efficiency", reading)
+}
+
 fn read_count(fields: &Fields, key: &str, reading: &mut Reading) -> Option<usize> {
     let whole = |x: f64| x >= 1.0 && x.fract() == 0.0 && x <= MOST_PIXELS as f64;
     let value = fields.require(key, "1024", &mut reading.problems)?;
@@ -249,7 +265,7 @@ fn read_channels(fields: &Fields, reading: &mut Reading) -> Option<Vec<ColourCha
         let Some(parts) = item.fields("a channel of a camera", &["name", "quantum_efficiency"], &mut reading.problems) else { continue };
         let name = parts.require("name", "\"R\"", &mut reading.problems).and_then(|v| v.text(&mut reading.problems));
         let efficiency = parts.require("quantum_efficiency", "0.6", &mut reading.problems);
-        let efficiency = efficiency.and_then(|v| read_share(&v, "the quantum efficiency", reading));
+        let efficiency = efficiency.and_then(|v| read_efficiency(&v, reading));
         if let Some(name) = name
             && channels.iter().any(|channel| channel.name == name)
         {

@@ -114,10 +114,10 @@ fn read_form(value: &Value, reading: &mut Reading) -> Option<Responsivity> {
 }
 
 /// What a file states: a scale to the unit of the kind, and the kind.
-type Stated = Option<(f64, ResponsivityKind)>;
+pub(super) type Stated = Option<(f64, ResponsivityKind)>;
 
 /// A factor, what its file says about its unit, and the uncertainties of its rows.
-fn read_curve(value: &Value, reading: &mut Reading) -> Option<(Factor, Stated, Option<Factor>)> {
+pub(super) fn read_curve(value: &Value, reading: &mut Reading) -> Option<(Factor, Stated, Option<Factor>)> {
     let curve = read_factor(value, Outside::Zero, reading)?;
     let file = match &value.node.kind {
         Kind::Text(name) if is_file(name) => {

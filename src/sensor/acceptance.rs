@@ -56,7 +56,7 @@ impl DirectionalResponse {
     ///
     /// θ must start at 0, rise strictly and end at π/2 at most; the response is zero beyond the last θ. With one φ the
     /// response does not depend on φ; otherwise φ must start at 0, rise strictly and end below 2π, and the table is
-    /// periodic. Values must be finite and not negative, at least one of them positive. Returns what is wrong otherwise.
+    /// periodic. Values must be finite and not negative, at least one of them positive, and at θ = 0 the same for every φ. Returns what is wrong otherwise.
     pub fn new(theta_rad: Vec<f64>, phi_rad: Vec<f64>, values: Vec<Vec<f64>>) -> Result<Self, String> {
         let rises = |x: &[f64]| x.windows(2).all(|w| w[0] < w[1]);
         if theta_rad.len() < 2 || theta_rad[0] != 0.0 || !rises(&theta_rad) || theta_rad[theta_rad.len() - 1] > FRAC_PI_2 * (1.0 + 1e-12) {
@@ -70,6 +70,14 @@ impl DirectionalResponse {
         }
         if values.iter().flatten().any(|v| !v.is_finite() || *v < 0.0) {
             return Err("every value must be finite and not negative".into());
+        }
+        if let Some(row) = values.iter().position(|row| (row[0] - values[0][0]).abs() > 1e-6 * values[0][0].abs()) {
+            return Err(format!(
+                "θ = 0° is one direction: the response there must be the same for every φ, but it is {} at φ = 0° and {} at φ = {}°",
+                values[0][0],
+                values[row][0],
+                phi_rad[row].to_degrees()
+            ));
         }
         if values.iter().flatten().all(|v| *v == 0.0) {
             return Err("the response is zero in every direction".into());
@@ -223,5 +231,20 @@ impl DirectionalResponse {
                 0.5 * (next_phi - self.phi_rad[i]) * (row(&self.values[i]) + row(&self.values[(i + 1) % n]))
             })
             .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_normal_is_one_direction() {
+        let table = |at_normal: [f64; 2]| {
+            let rows = at_normal.map(|r| vec![r, 0.5]).to_vec();
+            DirectionalResponse::new(vec![0.0, 1.0], vec![0.0, PI], rows)
+        };
+        assert!(table([1.0, 1.0]).is_ok());
+        assert!(table([1.0, 2.0]).is_err_and(|why| why.contains("φ = 180°")));
     }
 }
