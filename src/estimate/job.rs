@@ -100,7 +100,7 @@ impl Job<'_> {
     /// The most that a connection brings, whether or not the acceptance takes it, per unit of density.
     pub(super) fn brightest(&self, receiver: &Receiver<'_>, stream: Stream) -> f64 {
         match self {
-            Job::Source(job) if job.largest > 0.0 => direct::brightest(job, receiver, stream),
+            Job::Source(job) => direct::brightest(job, receiver, stream),
             _ => 0.0,
         }
     }
@@ -195,10 +195,16 @@ impl Job<'_> {
                     return match self {
                         // A part of a large source that fills a narrow acceptance is hit seldom and brings much: more than the acceptance
                         // takes in all, which is the most that there can be.
-                        Job::Source(job) => (job.largest > 0.0).then(|| {
-                            let bound = (RULE_OF_THREE / samples * job.largest.max(progress.brightest)).min(job.largest);
-                            (bound, format!("no way to the source in {samples} samples"))
-                        }),
+                        // Without extent, it brings what the brightest connection would, if the acceptance took it.
+                        Job::Source(job) => {
+                            let rare = RULE_OF_THREE / samples;
+                            let bound = if job.largest > 0.0 {
+                                (rare * job.largest.max(progress.brightest)).min(job.largest)
+                            } else {
+                                rare * progress.brightest
+                            };
+                            (bound > 0.0).then(|| (bound, format!("no way to the source in {samples} samples")))
+                        }
                         _ => None,
                     };
                 }

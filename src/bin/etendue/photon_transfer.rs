@@ -8,7 +8,6 @@ use etendue::estimate::frames::expose_into;
 use etendue::estimate::run::with_threads;
 use etendue::estimate::{Stop, Watch};
 use etendue::measurement::{Reading, measure};
-use etendue::plan::{Plan, PlanOptions};
 use etendue::quantity::constants::AVOGADRO_PER_MOL;
 use etendue::report::emva::descriptor::Descriptor;
 use etendue::report::emva::{to_json, to_text};
@@ -18,7 +17,10 @@ use etendue::sensor::{Exposure, Pixel};
 
 use crate::measure::{failed, whole};
 use crate::output::save_at;
-use crate::{Failure, complain, disk, print};
+use crate::{Failure, complain, disk, explain, print};
+
+/// Expanded uncertainty over the value that is enough for the photons, where rays find them.
+const TARGET: f64 = 1e-3;
 
 /// The unit in which a channel that reads `PhotonIrradiance` indicates.
 const PHOTON_IRRADIANCE: &str = "µmol/(m² s)";
@@ -57,6 +59,8 @@ pub(crate) struct Arguments {
     /// Seed of the sensor's pattern and of all noise: the same seed gives the same bits.
     #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX), allow_hyphen_values = true, default_value_t = 0)]
     seed: u64,
+    #[command(flatten)]
+    plan: explain::Options,
     /// Threads; as many as there are cores by default. Frames do not depend on it.
     #[arg(long, value_name = "N", value_parser = whole(1, 1024), allow_hyphen_values = true)]
     threads: Option<u64>,
@@ -119,9 +123,10 @@ impl Arguments {
     /// What the instrument in the plane of the pixels reads.
     fn light(&self) -> Result<Light, Failure> {
         let scene = disk::scene(&self.scene, None)?;
-        let plan = Plan::new(&scene, &PlanOptions::default()).map_err(|e| Failure::Input(format!("error: {e}")))?;
+        let plan = self.plan.plan(&scene)?;
         let watch = Watch { now: &|| 0.0, progress: &|_| {} };
-        let measured = measure(&scene, &plan, &Stop::default(), self.seed, &watch).map_err(|e| failed(&e))?;
+        let measured =
+            measure(&scene, &plan, &Stop { target: Some(TARGET), ..Stop::default() }, self.seed, &watch).map_err(|e| failed(&e))?;
         let counts = |reading: &&Reading| reading.measurand.unit() == PHOTON_IRRADIANCE && reading.index == 0;
         let counting: Vec<&Reading> = measured.readings.iter().filter(counts).collect();
         let names = counting.iter().map(|reading| format!("`{}`", reading.instrument)).collect::<Vec<_>>().join(", ");
