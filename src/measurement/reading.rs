@@ -256,7 +256,7 @@ fn read(
         expanded,
         samples,
         seconds: pose.seconds,
-        target_met: pose.target_met && !readout.as_ref().is_some_and(|display| display.saturation.is_some()),
+        target_met: pose.target_met && readout.as_ref().is_none_or(|display| display.saturation.is_none()),
         readout,
         notes,
     }

@@ -93,7 +93,7 @@ pub(super) fn read_readout(value: &Value, reading: &mut Reading) -> Option<Photo
     }
     if let (Some(v), Some(dark)) = (fields.get("dark"), &diode.dark) {
         let temperatures = [Some(diode.temperature_c), dark.zeroed_at_c];
-        for temperature_c in temperatures.into_iter().flatten().filter(|c| !(dark.at_a(*c) <= MOST_DARK_A)) {
+        for temperature_c in temperatures.into_iter().flatten().filter(|c| dark.at_a(*c) > MOST_DARK_A || dark.at_a(*c).is_nan()) {
             let found = format!("at {temperature_c} °C the dark current would be {:.3e} A", dark.at_a(temperature_c));
             v.problem(problems, found, "allowed: up to 1 A; `doubling_k` is the rise of the temperature that doubles it, such as 10");
         }

@@ -38,8 +38,7 @@ pub fn longest_exposure_s(pixel: &Pixel, temperature_c: f64, electrons_per_s: f6
     }
     let dark_e_s = pixel.dark_current_at(temperature_c);
     let share = dark_e_s / (dark_e_s + electrons_per_s);
-    // What is not a number is no share either.
-    if !(share <= MOST_DARK) {
+    if share.is_nan() || share > MOST_DARK {
         return wrong(format!(
             "at {temperature_c} °C the dark current brings {dark_e_s:.3e} e⁻/s and the light {electrons_per_s:.3e}: the pixel fills with dark \
              signal. Give a lower temperature or more light"
