@@ -5,6 +5,7 @@
 
 use serde::Serialize;
 
+use crate::calibration::consistency::Outlier;
 use crate::study::calibrate::propagate::Propagated;
 use crate::study::calibrate::{Calibrated, CalibratedChannel};
 
@@ -44,8 +45,30 @@ struct Channel<'a> {
     readings: &'a [f64],
     reading_standard_uncertainty: &'a [f64],
     residuals_in_u: &'a [f64],
+    /// Against the curve of all other readings; `null` where no other reading tells.
+    studentised_residuals: &'a [Option<f64>],
+    studentised_limit: f64,
+    weights: &'a [f64],
+    outliers: Vec<Contradicting<'a>>,
+    contradictions: Vec<Pair<'a>>,
     outside_of_curve: Option<f64>,
     uses: Vec<Use<'a>>,
+}
+
+#[derive(Serialize)]
+struct Contradicting<'a> {
+    exposure: &'a str,
+    reading: f64,
+    expected: f64,
+    studentised: f64,
+    in_u: f64,
+}
+
+#[derive(Serialize)]
+struct Pair<'a> {
+    exposures: &'a [String; 2],
+    readings: [f64; 2],
+    in_u: f64,
 }
 
 #[derive(Serialize)]
@@ -77,6 +100,10 @@ fn used(q: &Propagated) -> Use<'_> {
     }
 }
 
+fn contradicting(o: &Outlier) -> Contradicting<'_> {
+    Contradicting { exposure: &o.label, reading: o.reading, expected: o.expected, studentised: o.studentised, in_u: o.in_u }
+}
+
 fn channel(c: &CalibratedChannel) -> Channel<'_> {
     Channel {
         name: &c.readings.channel,
@@ -94,6 +121,13 @@ fn channel(c: &CalibratedChannel) -> Channel<'_> {
         readings: &c.readings.values,
         reading_standard_uncertainty: &c.readings.standard_uncertainties,
         residuals_in_u: &c.curve.residuals,
+        studentised_residuals: &c.curve.consistency.studentised,
+        studentised_limit: c.curve.consistency.limit,
+        weights: &c.curve.weights,
+        outliers: c.curve.consistency.outliers.iter().map(contradicting).collect(),
+        contradictions: (c.curve.consistency.contradictions.iter())
+            .map(|p| Pair { exposures: &p.labels, readings: p.readings, in_u: p.in_u })
+            .collect(),
         outside_of_curve: c.outside.as_ref().map(|o| o.0),
         uses: c.uses.iter().map(used).collect(),
     }

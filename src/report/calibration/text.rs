@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::consistency::consistency_text;
 use crate::metrology::rounding::{Rounded, format_significant};
 use crate::study::calibrate::propagate::{DRAWS, Propagated};
 use crate::study::calibrate::suggest::Wanted;
@@ -78,6 +79,7 @@ fn channel_text(text: &mut String, calibrated: &Calibrated, channel: &Calibrated
             format_significant(100.0 * share, 2)
         );
     }
+    consistency_text(text, channel);
     curve_rows(text, calibrated, channel);
     if !channel.uses.is_empty() {
         uses_text(text, channel);

@@ -182,7 +182,7 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
         let simulated = options.data.is_none().then(|| campaign::sought(&sensor.channels[c]));
         let found = channel(calibration, curve, readings, simulated.as_ref(), taken, scale_uncertainty, options.seed)?;
         remarks.extend(too_coarse(nodes, &found));
-        channels.push(CalibratedChannel { per_irradiance: factors[c], ..found });
+        channels.push(in_units_of_readings(found, factors[c]));
     }
     let suggestions = if options.suggest > 0 && !candidates.is_empty() {
         let further = Exposures::new(nodes, candidates)?;
@@ -254,6 +254,18 @@ fn per_factor(readings: &ChannelReadings, factor: f64) -> Readings {
         values: readings.values.iter().map(|y| y / factor).collect(),
         standard_uncertainties: readings.standard_uncertainties.iter().map(|u| u / factor).collect(),
     }
+}
+
+/// Readings that contradict the rest, told in the unit of the readings.
+fn in_units_of_readings(mut channel: CalibratedChannel, factor: f64) -> CalibratedChannel {
+    channel.per_irradiance = factor;
+    let consistency = &mut channel.curve.consistency;
+    for outlier in &mut consistency.outliers {
+        outlier.reading *= factor;
+        outlier.expected *= factor;
+    }
+    consistency.contradictions.iter_mut().flat_map(|c| &mut c.readings).for_each(|y| *y *= factor);
+    channel
 }
 
 fn channel(
