@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use super::consistency::{self, Consistency, Outliers};
 use super::error::CalibrationError;
 use super::evidence::{ClassicRule, RulePoint, Trial, Whitened, classic_scale, rule_points, weighted};
-use super::exposures::{Exposures, Readings};
+use super::exposures::{Exposures, Readings, lit};
 use super::non_negative::nearest;
 use super::parametric::Model;
 use super::parametric_fit::{Parametric, fit_model};
@@ -27,8 +27,6 @@ use super::whitening::whitened;
 const STRUCTURE_FACTOR: f64 = 2.0;
 /// Where the curve is zero its ripples are as large as where it is this share of its peak.
 const ENVELOPE_FLOOR: f64 = 0.03;
-/// A node has light if it weighs at least this share of the strongest node of an exposure.
-const DARK: f64 = 0.05;
 /// Lengths per factor e in the first search, and in the second about the best.
 const LENGTHS_PER_E: (f64, f64) = (2.5, 5.0);
 /// Standard deviations of χ² beyond which a fit is said not to hold.
@@ -347,17 +345,4 @@ fn fitted(
         weights: vec![1.0; data.units.len()],
         parametric: None,
     }
-}
-
-/// From the first node that has light to the last, for the light of any exposure.
-fn lit(matrix: &DMatrix<f64>) -> std::ops::RangeInclusive<usize> {
-    let (mut first, mut last) = (usize::MAX, 0);
-    for row in matrix.row_iter() {
-        let least = DARK * row.amax();
-        for (k, _) in row.iter().enumerate().filter(|(_, a)| a.abs() > least) {
-            first = first.min(k);
-            last = last.max(k);
-        }
-    }
-    first..=last
 }

@@ -6,6 +6,7 @@
 use serde::Serialize;
 
 use crate::calibration::consistency::Outlier;
+use crate::calibration::parametric_fit::{self, Parametric};
 use crate::study::calibrate::propagate::Propagated;
 use crate::study::calibrate::{Calibrated, CalibratedChannel};
 
@@ -19,7 +20,7 @@ struct Document<'a> {
     seed: u64,
     samples: u64,
     prior: &'a str,
-    length_nm: f64,
+    length_nm: Option<f64>,
     relative_scale_uncertainty: f64,
     wavelengths_nm: &'a [f64],
     exposures: &'a [String],
@@ -42,6 +43,7 @@ struct Channel<'a> {
     chi_squared: f64,
     readings_count: usize,
     effective_parameters: f64,
+    model: Option<Modelled<'a>>,
     readings: &'a [f64],
     reading_standard_uncertainty: &'a [f64],
     residuals_in_u: &'a [f64],
@@ -53,6 +55,37 @@ struct Channel<'a> {
     contradictions: Vec<Pair<'a>>,
     outside_of_curve: Option<f64>,
     uses: Vec<Use<'a>>,
+}
+
+#[derive(Serialize)]
+struct Modelled<'a> {
+    parameters: Vec<Parameter<'a>>,
+    degrees_of_freedom: usize,
+    uncertainties_widened_by: f64,
+}
+
+#[derive(Serialize)]
+struct Parameter<'a> {
+    name: &'a str,
+    unit: &'a str,
+    value: f64,
+    standard_uncertainty: f64,
+    determined: bool,
+}
+
+fn modelled<'a>(fit: &'a Parametric, curve_unit: &'a str) -> Modelled<'a> {
+    let of = |p: &'a parametric_fit::Parameter| Parameter {
+        name: &p.name,
+        unit: if p.unit.is_empty() { curve_unit } else { p.unit },
+        value: p.value,
+        standard_uncertainty: p.standard_uncertainty,
+        determined: p.determined,
+    };
+    Modelled {
+        parameters: fit.parameters.iter().map(of).collect(),
+        degrees_of_freedom: fit.degrees_of_freedom,
+        uncertainties_widened_by: fit.widening,
+    }
 }
 
 #[derive(Serialize)]
@@ -118,6 +151,7 @@ fn channel(c: &CalibratedChannel) -> Channel<'_> {
         chi_squared: c.curve.chi_squared,
         readings_count: c.readings.values.len(),
         effective_parameters: c.curve.effective_parameters,
+        model: c.curve.parametric.as_ref().map(|fit| modelled(fit, &c.unit)),
         readings: &c.readings.values,
         reading_standard_uncertainty: &c.readings.standard_uncertainties,
         residuals_in_u: &c.curve.residuals,
@@ -145,7 +179,7 @@ pub fn to_json(calibrated: &Calibrated) -> String {
         seed: calibrated.seed,
         samples: calibrated.samples,
         prior: &calibrated.prior.0,
-        length_nm: calibrated.prior.1,
+        length_nm: Some(calibrated.prior.1).filter(|length| length.is_finite()),
         relative_scale_uncertainty: calibrated.scale_uncertainty,
         wavelengths_nm: &calibrated.nodes_nm,
         exposures: &calibrated.labels,

@@ -16,11 +16,11 @@ pub mod suggest;
 
 use std::fmt;
 
-use crate::calibration::{CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, PriorKind, Readings, fit};
+use crate::calibration::{CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, Model, OpticalDensity, PriorKind, Readings, fit};
 use crate::characterization::campaign::{self, CampaignError, ChannelReadings, Light};
 use crate::estimate::{Stop, Watch};
 use crate::quantity::Measurand;
-use crate::scene::Calibration;
+use crate::scene::{Calibration, CurveModel};
 use crate::spectrum::{Density, Factor, Outside, SpectrumError, Table};
 
 use propagate::Propagated;
@@ -35,7 +35,7 @@ const COARSE: f64 = 0.05;
 /// How to calibrate.
 #[derive(Clone, Debug, Default)]
 pub struct CalibrateOptions {
-    /// How to fit.
+    /// How to fit; the model is that of the file.
     pub fit: FitOptions,
     /// Seed of the noise of simulated readings and of the rays.
     pub seed: u64,
@@ -173,7 +173,8 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     let sensor = &calibration.bench.instruments[0].sensor;
     let factors: Vec<f64> = sensor.channels.iter().map(|c| campaign::geometry_factor(sensor, c)).collect();
     let scaled: Vec<Readings> = readings.iter().zip(&factors).map(|(r, g)| per_factor(r, *g)).collect();
-    let fitted = fit(&exposures, &scaled, &FitOptions { prior: prior(options, &readings, nodes), ..options.fit.clone() })?;
+    let options_of_fit = FitOptions { prior: prior(options, &readings, nodes), model: model(&calibration.model), ..options.fit.clone() };
+    let fitted = fit(&exposures, &scaled, &options_of_fit)?;
     let scale_uncertainty = calibration.scale_uncertainty.hypot(light.relative_uncertainty);
     let mut channels = Vec::with_capacity(readings.len());
     let mut remarks = calibration.remarks.clone();
@@ -244,6 +245,18 @@ fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f
     match (&options.fit.prior, names.as_slice()) {
         (PriorKind::Smooth, ["r", "g", "b"] | ["red", "green", "blue"]) => PriorKind::camera(nodes_nm).unwrap_or_default(),
         (given, _) => given.clone(),
+    }
+}
+
+/// The model of the file, as the fit takes it.
+fn model(given: &CurveModel) -> Model {
+    match given {
+        CurveModel::Smooth => Model::Smooth,
+        CurveModel::SumOfGaussians(n) => Model::SumOfGaussians(*n),
+        CurveModel::FilterOnDetector(detector) => Model::FilterOnDetector(detector.clone()),
+        CurveModel::DilutePigment => Model::VisualPigment(OpticalDensity::Dilute),
+        CurveModel::Pigment(density) => Model::VisualPigment(OpticalDensity::Known(*density)),
+        CurveModel::PigmentOfUnknownDensity => Model::VisualPigment(OpticalDensity::Fitted),
     }
 }
 
