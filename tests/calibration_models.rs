@@ -6,13 +6,15 @@ mod disk;
 
 use etendue::calibration::evidence::ClassicRule;
 use etendue::calibration::parametric_fit::Parameter;
-use etendue::calibration::{Chooser, Exposures, FitOptions, Fitted, FittedCurve, Model, OpticalDensity, Outliers, Readings, fit};
+use etendue::calibration::{
+    Chooser, Exposures, FitOptions, Fitted, FittedCurve, Model, OpticalDensity, Outliers, Readings, fit, simultaneous,
+};
 use etendue::estimate::Watch;
 use etendue::math::random::Stream;
 use etendue::report::calibration::{to_json, to_text};
 use etendue::scene::{MemoryFiles, read_calibration};
 use etendue::spectrum::{Density, Factor, Outside, Table, library};
-use etendue::study::calibrate::{CalibrateOptions, calibrate};
+use etendue::study::calibrate::{CalibrateOptions, UNDETERMINED, calibrate};
 
 fn normal(seed: u64, path: &[u64]) -> f64 {
     let stream = Stream::new(seed, path);
@@ -325,4 +327,111 @@ fn what_is_wrong_with_a_model_or_with_labels_is_said_with_its_place() {
         assert!(said.contains(words), "{words}:\n{said}");
         assert_eq!((problems.0.len(), problems.0[0].line), (1, line), "{said}");
     }
+}
+
+/// K of the simultaneous band holds the whole curve as often as it says, where ±1.96 u holds it far less often.
+#[test]
+fn simultaneous_bands_hold_the_whole_curve() {
+    let nodes = nodes(10);
+    let truth = photopic(&nodes);
+    let exposures = scan(&nodes, 10);
+    let bands = |fitted: &Fitted, truth: &[f64]| {
+        let curve = &fitted.curves[0];
+        let determined = |k: usize| curve.undetermined[k] <= UNDETERMINED;
+        let factor = simultaneous::factor(curve, 0.0, &determined, 0.95, 7).unwrap();
+        let u = curve.standard_uncertainties();
+        let worst = (0..truth.len())
+            .filter(|k| determined(*k) && u[*k] > 0.0)
+            .map(|k| (curve.values[k] - truth[k]).abs() / u[k])
+            .fold(0.0, f64::max);
+        (factor, worst <= factor, worst <= 1.96)
+    };
+    // The covariance of a model is exact; that of a smooth curve is widened for structure, and its band may hold more often.
+    let bell = bells(&nodes, &[[1.0, 560.0, 90.0], [0.5, 450.0, 60.0]]);
+    for (name, truth, model, most) in [("model", &bell, Model::SumOfGaussians(2), 0.99), ("smooth", &truth, Model::Smooth, 1.0)] {
+        let found: Vec<(f64, bool, bool)> =
+            (0..200).map(|seed| bands(&with_model(&exposures, &noisy(&exposures, truth, seed), model.clone()), truth)).collect();
+        let share = |held: &dyn Fn(&(f64, bool, bool)) -> bool| found.iter().filter(|f| held(f)).count() as f64 / found.len() as f64;
+        let (whole, pointwise) = (share(&|f| f.1), share(&|f| f.2));
+        let mean = found.iter().map(|f| f.0).sum::<f64>() / found.len() as f64;
+        println!("{name}: K {mean:.2}; whole curve within K u in {:.1} %, within 1.96 u in {:.1} %", 100.0 * whole, 100.0 * pointwise);
+        // Three standard deviations of a share of 0.95 of 200 are 0.046.
+        assert!((0.904..=most).contains(&whole) && mean > 2.2, "{name}: {whole}, {mean}");
+        assert!(pointwise < whole - 0.05, "{name}: {pointwise}");
+    }
+    // One free number: K is 1.96 whatever the nodes are.
+    let alone = Exposures::new(&nodes, &[("line", Density::gaussian(1.0, 560.0, 4.0).unwrap())]).unwrap();
+    let one =
+        fit(&alone, &[Readings { channel: "s".into(), values: vec![1.0], standard_uncertainties: vec![1e-3] }], &FitOptions::default());
+    let mut curve = one.unwrap().curves.remove(0);
+    curve.noise.fill(0.0);
+    curve.structure.fill(0.0);
+    let factor = simultaneous::factor(&curve, 0.01, &|_| true, 0.95, 7).unwrap();
+    assert!((factor - 1.96).abs() < 0.1, "{factor}");
+}
+
+/// A reading divided by its power is the curve seen through the bandpass; the fit takes the bandpass out.
+#[test]
+fn the_bandpass_of_a_monochromator_is_taken_out() {
+    let nodes = nodes(2);
+    let notched: Vec<f64> = bells(&nodes, &[[1.0, 520.0, 160.0]])
+        .iter()
+        .zip(bells(&nodes, &[[0.6, 500.0, 25.0]]))
+        .map(|(s, notch)| s * (1.0 - notch))
+        .collect();
+    for (name, truth) in [("V(λ)", photopic(&nodes)), ("with a notch of 25 nm", notched)] {
+        for (fwhm, least) in [(5.0, 0.0), (10.0, 1.5), (20.0, 2.0)] {
+            let settings: Vec<(String, Density)> = (380..=780)
+                .step_by(5)
+                .map(|nm| {
+                    let nm = f64::from(nm);
+                    let rows = [(nm - fwhm, 0.0), (nm, 1.0 / fwhm), (nm + fwhm, 0.0)];
+                    (format!("{nm} nm"), Density::table(Table::from_rows(&rows, Outside::Zero).unwrap()).unwrap())
+                })
+                .collect();
+            let exposures = Exposures::new(&nodes, &settings).unwrap();
+            let exact = exposures.expected(&truth);
+            let u: Vec<f64> = exact.iter().map(|y| (0.001 * y).hypot(1e-4)).collect();
+            let values: Vec<f64> = exact.iter().zip(&u).enumerate().map(|(i, (y, u))| y + u * normal(11, &[i as u64])).collect();
+            let power: Vec<f64> = (0..exposures.len()).map(|i| exposures.row(i).iter().sum()).collect();
+            let readings = Readings { channel: "s".to_owned(), values, standard_uncertainties: u };
+            let curve = fitted(&exposures, &readings, Outliers::Report).curves.remove(0);
+            // Both at the settings, but for the ends, where the bandpass leaves the nodes.
+            let at = |i: usize| nodes.iter().position(|node| (node - (380.0 + 5.0 * i as f64)).abs() < 0.5);
+            let settings: Vec<(usize, usize)> = (4..77).filter_map(|i| Some((i, at(i)?))).collect();
+            let error = |of: &dyn Fn(usize, usize) -> f64| {
+                (settings.iter().map(|&(i, k)| (of(i, k) - truth[k]).powi(2)).sum::<f64>() / settings.len() as f64).sqrt()
+            };
+            let naive = error(&|i, _| readings.values[i] / power[i]);
+            let fit = error(&|_, k| curve.values[k]);
+            println!("| {name} | {fwhm} nm | {:.3} % | {:.3} % | {:.1} |", 100.0 * naive, 100.0 * fit, naive / fit);
+            assert!(naive > least * fit, "{name}, {fwhm} nm: {naive:e} and {fit:e}");
+        }
+    }
+}
+
+#[test]
+fn readings_beyond_the_straight_range_of_a_readout_are_told() {
+    use etendue::characterization::campaign::ChannelReadings;
+    use etendue::quantity::Measurand;
+    use etendue::sensor::photodiode::{Bandwidth, Photodiode, Range};
+    use etendue::sensor::{Acceptance, Aperture, Channel, Sensor};
+    use etendue::study::calibrate::range::beyond_range;
+
+    let channel = Channel::new("I", Factor::Constant(0.3), Measurand::Photocurrent, 1.0);
+    let mut sensor = Sensor::new("diode", Aperture::Disc { radius_m: 5e-3 }, Acceptance::Cosine, vec![channel.clone()]);
+    let labels = ["dim", "bright", "glaring"].map(str::to_owned);
+    let readings = ChannelReadings {
+        channel: "I".to_owned(),
+        measurand: Measurand::Photocurrent,
+        values: vec![1e-7, 5e-6, 2e-5],
+        standard_uncertainties: vec![1e-10, 5e-9, 2e-8],
+    };
+    assert!(beyond_range(&sensor, &channel, &readings, &labels).is_empty(), "no readout, no range");
+    let mut diode = Photodiode::new(vec![Range { feedback_ohm: 1e6, error: 0.0 }], Bandwidth::Hertz(10.0));
+    diode.saturation_v = Some(10.0);
+    diode.current_a_per_unit = Some(1.0);
+    sensor.readout = Some(diode);
+    let told = beyond_range(&sensor, &channel, &readings, &labels);
+    assert!(told.len() == 1 && told[0].contains("saturates at \"glaring\""), "{told:?}");
 }

@@ -23,8 +23,8 @@ use nalgebra::DMatrix;
 use crate::spectrum::kernel::Weights;
 use crate::spectrum::{Density, SpectrumError};
 
-/// A node has light if it weighs at least this share of the strongest node of an exposure.
-const DARK: f64 = 0.05;
+/// A node has light if it weighs at least this share of the strongest node of an exposure: it lies within the exposure's full width at half maximum.
+const DARK: f64 = 0.5;
 
 /// Spectra of the exposures as rows of weights on the nodes of the curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,7 +124,7 @@ pub(super) fn lit(matrix: &DMatrix<f64>) -> std::ops::RangeInclusive<usize> {
     let (mut first, mut last) = (usize::MAX, 0);
     for row in matrix.row_iter() {
         let least = DARK * row.amax();
-        for (k, _) in row.iter().enumerate().filter(|(_, a)| a.abs() > least) {
+        for (k, _) in row.iter().enumerate().filter(|(_, a)| a.abs() > 0.0 && a.abs() >= least * (1.0 - 1e-9)) {
             first = first.min(k);
             last = last.max(k);
         }

@@ -73,8 +73,9 @@ pub struct FittedCurve {
     pub expected: DMatrix<f64>,
     /// `curve = gain · readings`, but for non-negativity.
     pub gain: DMatrix<f64>,
-    /// Share of the variance before the readings that is left, 0 to 1, a node each: near 1 the curve there is the prior's guess. It is 1 below the
-    /// first and above the last node that has light: how a curve goes on is not known from where it was seen.
+    /// What is open, 0 to 1, a node each: near 1 the curve there is the prior's guess. The share of the variance before the readings that is left, or what
+    /// the averaging kernel misses of a curve that is 1 everywhere, whichever is larger (a camera's prior holds no such curve). It is 1 below the first and
+    /// above the last node within the width at half maximum of an exposure: how a curve goes on is not known from where it was seen.
     pub undetermined: Vec<f64>,
     /// χ² of the residuals in units of the uncertainties, those of down-weighted readings widened.
     pub chi_squared: f64,
@@ -208,7 +209,7 @@ fn by_evidence(exposures: &Exposures, readings: &[Readings], kind: &PriorKind, d
         let second = posterior::average(&weights, c, data);
         let curve = non_negative(&second, chosen, c, data, &readings[c].channel, &mut remarks)?;
         let structure = first.structure.clone() * STRUCTURE_FACTOR.powi(2);
-        curves.push(fitted(&readings[c], c, &curve, second, structure, &first, data));
+        curves.push(fitted(&readings[c], c, &curve, second, structure, &first, untouched == 0, data));
     }
     Ok(Fitted {
         wavelengths_nm: nodes.to_vec(),
@@ -270,7 +271,7 @@ fn by_rule(exposures: &Exposures, readings: &[Readings], rule: ClassicRule, data
         let curve = made_non_negative(&posterior.mean, &root, &r.channel, &mut remarks)?;
         let structure = posterior.structure.clone();
         let first = posterior.clone();
-        curves.push(fitted(r, c, &curve, posterior, structure, &first, data));
+        curves.push(fitted(r, c, &curve, posterior, structure, &first, true, data));
         points.push(of_channel);
     }
     Ok(Fitted {
@@ -312,6 +313,7 @@ fn made_non_negative(
     Ok(found.curve)
 }
 
+#[allow(clippy::too_many_arguments)]
 fn fitted(
     readings: &Readings,
     channel: usize,
@@ -319,12 +321,17 @@ fn fitted(
     posterior: Posterior,
     structure: DMatrix<f64>,
     first: &Posterior,
+    constants: bool,
     data: &Whitened,
 ) -> FittedCurve {
     let residuals: DVector<f64> = &data.readings[channel] - &data.matrix * curve;
     let lit = lit(&data.matrix);
     let left =
         |k: usize| if first.prior_variance[k] > 0.0 { (first.structure[(k, k)] / first.prior_variance[k]).clamp(0.0, 1.0) } else { 0.0 };
+    // The row of the averaging kernel, summed: what becomes of a curve that is 1 everywhere.
+    let light = DVector::from_fn(data.units.len(), |i, _| data.units[i] * data.matrix.row(i).sum());
+    let resolved = &first.gain * light;
+    let left = |k: usize| if constants { left(k).max((1.0 - resolved[k]).abs().min(1.0)) } else { left(k) };
     let undetermined = (0..curve.len()).map(|k| if lit.contains(&k) { left(k) } else { 1.0 }).collect();
     // tr(A G): what the fitted readings owe to the readings.
     let effective_parameters = (0..data.units.len())

@@ -16,6 +16,7 @@
 //! | [`posterior`] | curve, covariance, averaging kernels |
 //! | [`non_negative`] | the most plausible curve that is nowhere negative |
 //! | [`propagation`] | what a curve is used for, with its uncertainty |
+//! | [`simultaneous`] | the band that holds the whole curve at once |
 //! | [`suggestion`] | what a further reading would take from the covariance |
 //! | [`parametric`] | curves of few parameters: sums of Gaussians, a filter before a detector, a visual pigment |
 //! | [`least_squares`] | Levenberg and Marquardt |
@@ -40,6 +41,7 @@ pub mod parametric_fit;
 pub mod posterior;
 pub mod prior;
 pub mod propagation;
+pub mod simultaneous;
 pub mod suggestion;
 pub mod whitening;
 

@@ -37,6 +37,8 @@ struct Channel<'a> {
     curve_unit: &'a str,
     responsivity: &'a [f64],
     standard_uncertainty: &'a [f64],
+    /// What `standard_uncertainty` is multiplied by for a band that holds all determined nodes at once with 95 %.
+    simultaneous_factor_95: Option<f64>,
     undetermined_share: &'a [f64],
     truth: Option<&'a [f64]>,
     not_determined_nm: &'a [(f64, f64)],
@@ -117,8 +119,8 @@ struct Use<'a> {
 #[derive(Serialize)]
 struct Suggested<'a> {
     exposure: &'a str,
-    rms_uncertainty_over_peak_before: f64,
-    after: f64,
+    expected_error_before: f64,
+    expected_error_after: f64,
 }
 
 fn used(q: &Propagated) -> Use<'_> {
@@ -145,6 +147,7 @@ fn channel(c: &CalibratedChannel) -> Channel<'_> {
         curve_unit: &c.unit,
         responsivity: &c.curve.values,
         standard_uncertainty: &c.standard_uncertainties,
+        simultaneous_factor_95: c.simultaneous,
         undetermined_share: &c.curve.undetermined,
         truth: c.truth.as_deref(),
         not_determined_nm: &c.unseen_nm,
@@ -187,7 +190,7 @@ pub fn to_json(calibrated: &Calibrated) -> String {
         suggestions: calibrated
             .suggestions
             .iter()
-            .map(|s| Suggested { exposure: &s.label, rms_uncertainty_over_peak_before: s.before, after: s.after })
+            .map(|s| Suggested { exposure: &s.label, expected_error_before: s.before, expected_error_after: s.after })
             .collect(),
         remarks: &calibrated.remarks,
     };

@@ -9,14 +9,18 @@
 //! |---|---|
 //! | `mod.rs` | the way from a campaign to fitted channels |
 //! | [`propagate`] | f1′, mismatch correction and luminous responsivity, with their uncertainties |
+//! | [`range`] | readings beyond the straight range of the readout |
 //! | [`suggest`] | which further exposure helps most |
 
 pub mod propagate;
+pub mod range;
 pub mod suggest;
 
 use std::fmt;
 
-use crate::calibration::{CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, Model, OpticalDensity, PriorKind, Readings, fit};
+use crate::calibration::{
+    CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, Model, OpticalDensity, PriorKind, Readings, fit, simultaneous,
+};
 use crate::characterization::campaign::{self, CampaignError, ChannelReadings, Light};
 use crate::estimate::{Stop, Watch};
 use crate::quantity::Measurand;
@@ -26,8 +30,12 @@ use crate::spectrum::{Density, Factor, Outside, SpectrumError, Table};
 use propagate::Propagated;
 use suggest::{Suggestion, Wanted};
 
-/// Share of the variance before the readings above which a node counts as not determined: its uncertainty is still half of what it was.
+/// What may be open at a node that counts as determined: a quarter of the variance before the readings (half of the uncertainty), or of what its averaging
+/// kernel should weigh; see [`FittedCurve::undetermined`].
 pub const UNDETERMINED: f64 = 0.25;
+
+/// Probability with which a simultaneous band holds the whole curve.
+pub const SIMULTANEOUS: f64 = 0.95;
 
 /// Share of the nodes at which a curve may bend more than its uncertainty before it is said.
 const COARSE: f64 = 0.05;
@@ -111,6 +119,9 @@ pub struct CalibratedChannel {
     pub curve: FittedCurve,
     /// Standard uncertainty at each node, the common scale included.
     pub standard_uncertainties: Vec<f64>,
+    /// What the standard uncertainties are multiplied by for a band that holds the curve at all determined nodes at once with 95 %; `None` if no
+    /// node is determined.
+    pub simultaneous: Option<f64>,
     /// The true curve at the nodes, if the readings were simulated.
     pub truth: Option<Vec<f64>>,
     /// The largest share of a reading that came from outside of the nodes, with its exposure; known if the readings were simulated.
@@ -183,6 +194,7 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
         let simulated = options.data.is_none().then(|| campaign::sought(&sensor.channels[c]));
         let found = channel(calibration, curve, readings, simulated.as_ref(), taken, scale_uncertainty, options.seed)?;
         remarks.extend(too_coarse(nodes, &found));
+        remarks.extend(range::beyond_range(sensor, &sensor.channels[c], &found.readings, exposures.labels()));
         channels.push(in_units_of_readings(found, factors[c]));
     }
     let suggestions = if options.suggest > 0 && !candidates.is_empty() {
@@ -304,6 +316,7 @@ fn channel(
     Ok(CalibratedChannel {
         unit: curve_unit(&readings.measurand),
         standard_uncertainties: curve.standard_uncertainties().iter().zip(&curve.values).map(|(u, s)| u.hypot(scale * s)).collect(),
+        simultaneous: simultaneous::factor(curve, scale, &|k| curve.undetermined[k] <= UNDETERMINED, SIMULTANEOUS, seed),
         truth: truth.map(on_nodes),
         outside,
         unseen_nm: ranges(nodes, &curve.undetermined),
