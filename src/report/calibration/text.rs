@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use super::consistency::consistency_text;
+use super::parametric::parametric_text;
 use crate::metrology::rounding::{Rounded, format_significant};
 use crate::study::calibrate::propagate::{DRAWS, Propagated};
 use crate::study::calibrate::suggest::Wanted;
@@ -24,7 +26,11 @@ pub fn to_text(calibrated: &Calibrated) -> String {
         0 => "bench by formulas, without a ray".to_owned(),
         n => format!("bench by {n} samples, one tracing for all spectra"),
     };
-    let _ = writeln!(text, "{rays}; curves smooth over {:.0} nm ({})", calibrated.prior.1, calibrated.prior.0);
+    let curves = match calibrated.prior.1 {
+        length if length.is_finite() => format!("curves smooth over {length:.0} nm ({})", calibrated.prior.0),
+        _ => format!("curves of a model: {}", calibrated.prior.0),
+    };
+    let _ = writeln!(text, "{rays}; {curves}");
     if calibrated.scale_uncertainty > 0.0 {
         let _ =
             writeln!(text, "common to all readings: {} % of the irradiance", format_significant(100.0 * calibrated.scale_uncertainty, 2));
@@ -64,7 +70,11 @@ fn channel_text(text: &mut String, calibrated: &Calibrated, channel: &Calibrated
         format_significant(curve.chi_squared, 3),
         format_significant(curve.effective_parameters, 2),
     );
+    if let Some(parametric) = &curve.parametric {
+        parametric_text(text, calibrated, channel, parametric);
+    }
     match channel.unseen_nm.as_slice() {
+        [] if curve.parametric.is_some() => text.push_str("  If the model holds, the readings determine the curve at every node.\n"),
         [] => text.push_str("  The readings determine the curve at every node.\n"),
         ranges => {
             let words: Vec<String> = ranges.iter().map(|(a, b)| format!("{a} nm to {b} nm")).collect();
@@ -78,6 +88,7 @@ fn channel_text(text: &mut String, calibrated: &Calibrated, channel: &Calibrated
             format_significant(100.0 * share, 2)
         );
     }
+    consistency_text(text, channel);
     curve_rows(text, calibrated, channel);
     if !channel.uses.is_empty() {
         uses_text(text, channel);
