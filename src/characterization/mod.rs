@@ -10,6 +10,7 @@
 //! | `class_limits` | classes L, A, B, C and how sure they are | indices |
 //! | `bench/` | readings of a sensor on a goniometer, a monochromator, an attenuator | a sensor |
 //! | `emva/` | the figures of EMVA 1288 | frames of a camera |
+//! | `traced_field` | photons and electrons of the pixels in a flat field | a camera in a scene |
 //! | `sheet/` | all of them for one sensor, each by both routes | a sensor |
 //! | `campaign` | readings of a calibration bench, simulated | a sensor |
 //! | `readings_table` | readings of a laboratory, read | a table |
@@ -29,5 +30,6 @@ pub mod out_of_band;
 pub mod readings_table;
 pub mod sheet;
 pub mod spectral_mismatch;
+pub mod traced_field;
 
 pub use figure::Figure;

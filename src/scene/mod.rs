@@ -64,7 +64,7 @@ mod tests;
 pub use calibration::{Calibration, CurveModel, Exposure, Noise};
 pub use calibration_reader::read_calibration;
 pub use camera::{PlacedCamera, Region};
-pub use device::{Device, device_from_file, sensor_from_file};
+pub use device::{Device, characterised_from_file, device_from_file, held_by, sensor_from_file};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};

@@ -15,6 +15,7 @@ use etendue::sensor::Acceptance;
 use etendue::study::calibrate::suggest::Wanted;
 use etendue::study::calibrate::{CalibrateError, CalibrateOptions, Calibrated, calibrate};
 
+use crate::file_set::FileSet;
 use crate::measure::whole;
 use crate::{Failure, complain, disk, output, print};
 
@@ -151,9 +152,9 @@ fn save(folder: &Path, file: &str, calibration: &Calibration, calibrated: &Calib
     files.push((format!("{stem}-sensor.ron"), to_sensor_file(calibrated, sensor, &curve_files, &directional).into_bytes()));
     #[cfg(feature = "plot")]
     files.extend(picture::all(&stem, calibrated)?);
-    for (name, bytes) in &files {
-        output::save_at(&folder.join(name), bytes)?;
-    }
+    let set = FileSet::new(folder, files.iter().map(|(name, _)| name.clone()), "--out takes a folder that can be written")?;
+    files.iter().try_for_each(|(name, bytes)| set.add(name, bytes))?;
+    set.finish()?;
     for (name, _) in &files {
         complain(&format!("wrote {}", folder.join(name).display()));
     }
