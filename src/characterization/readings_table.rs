@@ -23,6 +23,9 @@ use crate::scene::{Calibration, Diagnostic, Diagnostics};
 /// Problems that are told at most.
 const MOST_TOLD: usize = 50;
 
+/// Largest reading and uncertainty that are taken for ones: their squares are numbers.
+const LARGEST: f64 = 1e90;
+
 /// A cell, and the column of its first character.
 struct Cell {
     text: String,
@@ -202,7 +205,17 @@ fn place(
     problems: &mut Problems,
 ) {
     if row.cells.len() != width {
-        problems.at(row, 1, format!("{} cells where the head has {width}", row.cells.len()), "write one value for each column");
+        let other = [';', '\t', ','].into_iter().find(|c| row.cells.len() == 1 && row.text.contains(*c));
+        let help = match other {
+            Some(c) => {
+                format!("the head separates its columns by another character than this row's `{}`: use one for both", c.escape_default())
+            }
+            None if row.cells.len() > width && !row.text.contains([';', '\t']) => {
+                "write one value for each column, with decimal points: a decimal comma makes two cells of one number".to_owned()
+            }
+            None => "write one value for each column".to_owned(),
+        };
+        problems.at(row, 1, format!("{} cells where the head has {width}", row.cells.len()), help);
         return;
     }
     let cell = &row.cells[at];
@@ -220,22 +233,29 @@ fn place(
 
 fn number_at(row: &Row, k: usize, what: &str, above_zero: bool, problems: &mut Problems) -> Option<f64> {
     let cell = &row.cells[k];
-    match cell.text.parse::<f64>() {
-        Ok(x) if x.is_finite() && (x > 0.0 || !above_zero) => Some(x),
+    let (message, help) = match cell.text.parse::<f64>() {
+        Ok(x) if x.abs() <= LARGEST && (x > 0.0 || !above_zero) => return Some(x),
+        Ok(x) if x.is_finite() && x.abs() > LARGEST => (
+            format!("{what} is {x:e}, which is absurd"),
+            format!("allowed: up to {LARGEST:e}; a value that stands for none is left out, row and exposure"),
+        ),
         Ok(x) if x.is_finite() => {
-            let help = "give the standard uncertainty (k = 1) of the reading, above 0; without one nothing can be said about the curve";
-            problems.at(row, cell.column, format!("{what} is {x}"), help);
-            None
+            let help = "give the standard uncertainty (k = 1) of the reading, above 0; without one nothing can be said about the curve. A reading of zero has one, \
+                        too: the scatter of readings in the dark, or the last digit of the display over √12";
+            (format!("{what} is {x}"), help.to_owned())
         }
-        Ok(x) => {
-            problems.at(row, cell.column, format!("{what} is {x}"), "every number is finite; leave the exposure out of both files");
-            None
+        Ok(x) => (format!("{what} is {x}"), "every number is finite; leave the exposure out of both files".to_owned()),
+        Err(_) if cell.text.contains(',') && cell.text.replacen(',', ".", 1).parse::<f64>().is_ok() => {
+            let help = format!("write a decimal point: {}", cell.text.replacen(',', ".", 1));
+            (format!("{what} has a decimal comma: `{}`", cell.text), help)
         }
-        Err(_) => {
-            problems.at(row, cell.column, format!("{what} is no number: `{}`", cell.text), "write it with a decimal point, such as 0.0123");
-            None
+        Err(_) if cell.text.is_empty() => {
+            (format!("{what} is missing"), "every exposure has a reading and an uncertainty in each channel".to_owned())
         }
-    }
+        Err(_) => (format!("{what} is no number: `{}`", cell.text), "write it with a decimal point, such as 0.0123".to_owned()),
+    };
+    problems.at(row, cell.column, message, help);
+    None
 }
 
 /// Cells of a line; quotes hold separators.

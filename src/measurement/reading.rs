@@ -190,7 +190,7 @@ fn read(
         samples += sampled.samples;
         if let Some(found) = Replicates::evaluate(&sampled.replicates.map(|r| scale * r)) {
             value += found.mean;
-            budget.push(BudgetRow::type_a(sampled.label.clone(), found.standard_uncertainty, found.degrees_of_freedom()));
+            budget.push(BudgetRow::type_a(sampled.label.clone(), found.standard_uncertainty, found.degrees_of_freedom));
             if sampled.spectral_residual > 0.0 {
                 budget.push(BudgetRow::rectangular("wavelengths between the nodes", sampled.spectral_residual * found.mean.abs()));
             }

@@ -18,7 +18,7 @@
 //! | `pixel_reader` | camera pixels |
 //! | `responsivity_reader`, `readout_reader` | their curves with units and uncertainties, their electronics |
 //! | `reader` | the scene as a whole |
-//! | `calibration`, `calibration_reader`, `exposure_reader` | calibration files: a bench and what is put in front of the sensor |
+//! | `calibration`, `calibration_reader`, `exposure_reader`, `curve_model_reader` | calibration files: a bench and what is put in front of the sensor |
 //! | `checks` | what only the scene as a whole can show |
 
 mod acceptance_reader;
@@ -29,6 +29,7 @@ pub mod camera;
 mod camera_reader;
 mod channel_reader;
 mod checks;
+mod curve_model_reader;
 mod decode;
 mod device;
 pub mod diagnostic;
@@ -60,7 +61,7 @@ mod syntax;
 #[cfg(test)]
 mod tests;
 
-pub use calibration::{Calibration, Exposure, Noise};
+pub use calibration::{Calibration, CurveModel, Exposure, Noise};
 pub use calibration_reader::read_calibration;
 pub use camera::{PlacedCamera, Region};
 pub use device::{Device, characterised_from_file, device_from_file, held_by, sensor_from_file};

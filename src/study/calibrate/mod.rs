@@ -9,25 +9,33 @@
 //! |---|---|
 //! | `mod.rs` | the way from a campaign to fitted channels |
 //! | [`propagate`] | f1′, mismatch correction and luminous responsivity, with their uncertainties |
+//! | [`range`] | readings beyond the straight range of the readout |
 //! | [`suggest`] | which further exposure helps most |
 
 pub mod propagate;
+pub mod range;
 pub mod suggest;
 
 use std::fmt;
 
-use crate::calibration::{CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, PriorKind, Readings, fit};
+use crate::calibration::{
+    CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, Model, OpticalDensity, PriorKind, Readings, fit, simultaneous,
+};
 use crate::characterization::campaign::{self, CampaignError, ChannelReadings, Light};
 use crate::estimate::{Stop, Watch};
 use crate::quantity::Measurand;
-use crate::scene::Calibration;
+use crate::scene::{Calibration, CurveModel};
 use crate::spectrum::{Density, Factor, Outside, SpectrumError, Table};
 
 use propagate::Propagated;
 use suggest::{Suggestion, Wanted};
 
-/// Share of the variance before the readings above which a node counts as not determined: its uncertainty is still half of what it was.
+/// What may be open at a node that counts as determined: a quarter of the variance before the readings (half of the uncertainty), or of what its averaging
+/// kernel should weigh; see [`FittedCurve::undetermined`].
 pub const UNDETERMINED: f64 = 0.25;
+
+/// Probability with which a simultaneous band holds the whole curve.
+pub const SIMULTANEOUS: f64 = 0.95;
 
 /// Share of the nodes at which a curve may bend more than its uncertainty before it is said.
 const COARSE: f64 = 0.05;
@@ -35,7 +43,7 @@ const COARSE: f64 = 0.05;
 /// How to calibrate.
 #[derive(Clone, Debug, Default)]
 pub struct CalibrateOptions {
-    /// How to fit.
+    /// How to fit; the model is that of the file.
     pub fit: FitOptions,
     /// Seed of the noise of simulated readings and of the rays.
     pub seed: u64,
@@ -111,6 +119,9 @@ pub struct CalibratedChannel {
     pub curve: FittedCurve,
     /// Standard uncertainty at each node, the common scale included.
     pub standard_uncertainties: Vec<f64>,
+    /// What the standard uncertainties are multiplied by for a band that holds the curve at all determined nodes at once with 95 %; `None` if no
+    /// node is determined.
+    pub simultaneous: Option<f64>,
     /// The true curve at the nodes, if the readings were simulated.
     pub truth: Option<Vec<f64>>,
     /// The largest share of a reading that came from outside of the nodes, with its exposure; known if the readings were simulated.
@@ -173,7 +184,8 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     let sensor = &calibration.bench.instruments[0].sensor;
     let factors: Vec<f64> = sensor.channels.iter().map(|c| campaign::geometry_factor(sensor, c)).collect();
     let scaled: Vec<Readings> = readings.iter().zip(&factors).map(|(r, g)| per_factor(r, *g)).collect();
-    let fitted = fit(&exposures, &scaled, &FitOptions { prior: prior(options, &readings, nodes), ..options.fit.clone() })?;
+    let options_of_fit = FitOptions { prior: prior(options, &readings, nodes), model: model(&calibration.model), ..options.fit.clone() };
+    let fitted = fit(&exposures, &scaled, &options_of_fit)?;
     let scale_uncertainty = calibration.scale_uncertainty.hypot(light.relative_uncertainty);
     let mut channels = Vec::with_capacity(readings.len());
     let mut remarks = calibration.remarks.clone();
@@ -182,7 +194,8 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
         let simulated = options.data.is_none().then(|| campaign::sought(&sensor.channels[c]));
         let found = channel(calibration, curve, readings, simulated.as_ref(), taken, scale_uncertainty, options.seed)?;
         remarks.extend(too_coarse(nodes, &found));
-        channels.push(CalibratedChannel { per_irradiance: factors[c], ..found });
+        remarks.extend(range::beyond_range(sensor, &sensor.channels[c], &found.readings, exposures.labels()));
+        channels.push(in_units_of_readings(found, factors[c]));
     }
     let suggestions = if options.suggest > 0 && !candidates.is_empty() {
         let further = Exposures::new(nodes, candidates)?;
@@ -247,6 +260,18 @@ fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f
     }
 }
 
+/// The model of the file, as the fit takes it.
+fn model(given: &CurveModel) -> Model {
+    match given {
+        CurveModel::Smooth => Model::Smooth,
+        CurveModel::SumOfGaussians(n) => Model::SumOfGaussians(*n),
+        CurveModel::FilterOnDetector(detector) => Model::FilterOnDetector(detector.clone()),
+        CurveModel::DilutePigment => Model::VisualPigment(OpticalDensity::Dilute),
+        CurveModel::Pigment(density) => Model::VisualPigment(OpticalDensity::Known(*density)),
+        CurveModel::PigmentOfUnknownDensity => Model::VisualPigment(OpticalDensity::Fitted),
+    }
+}
+
 /// Readings per unit of what the geometry factor multiplies.
 fn per_factor(readings: &ChannelReadings, factor: f64) -> Readings {
     Readings {
@@ -254,6 +279,18 @@ fn per_factor(readings: &ChannelReadings, factor: f64) -> Readings {
         values: readings.values.iter().map(|y| y / factor).collect(),
         standard_uncertainties: readings.standard_uncertainties.iter().map(|u| u / factor).collect(),
     }
+}
+
+/// Readings that contradict the rest, told in the unit of the readings.
+fn in_units_of_readings(mut channel: CalibratedChannel, factor: f64) -> CalibratedChannel {
+    channel.per_irradiance = factor;
+    let consistency = &mut channel.curve.consistency;
+    for outlier in &mut consistency.outliers {
+        outlier.reading *= factor;
+        outlier.expected *= factor;
+    }
+    consistency.contradictions.iter_mut().flat_map(|c| &mut c.readings).for_each(|y| *y *= factor);
+    channel
 }
 
 fn channel(
@@ -279,6 +316,7 @@ fn channel(
     Ok(CalibratedChannel {
         unit: curve_unit(&readings.measurand),
         standard_uncertainties: curve.standard_uncertainties().iter().zip(&curve.values).map(|(u, s)| u.hypot(scale * s)).collect(),
+        simultaneous: simultaneous::factor(curve, scale, &|k| curve.undetermined[k] <= UNDETERMINED, SIMULTANEOUS, seed),
         truth: truth.map(on_nodes),
         outside,
         unseen_nm: ranges(nodes, &curve.undetermined),
