@@ -20,6 +20,14 @@ const MOST_DARK: f64 = 0.5;
 /// A range of fewer electrons than shot noise needs, read noise that fills it, or a dark current that does so before the light.
 pub fn longest_exposure_s(pixel: &Pixel, temperature_c: f64, electrons_per_s: f64) -> Result<f64, EmvaError> {
     let wrong = |words: String| Err(EmvaError::Series(words));
+    let dark_e_s = pixel.dark_current_at(temperature_c);
+    let share = dark_e_s / (dark_e_s + electrons_per_s);
+    if share.is_nan() || share > MOST_DARK {
+        return wrong(format!(
+            "at {temperature_c} °C the dark current brings {dark_e_s:.3e} e⁻/s and the light {electrons_per_s:.3e}: the pixel fills with dark \
+             signal. Give a lower temperature or more light"
+        ));
+    }
     let still = pixel.linear(0.0, temperature_c);
     let range_e = still.hard_limit_e();
     if range_e < LEAST_RANGE_E {
@@ -34,14 +42,6 @@ pub fn longest_exposure_s(pixel: &Pixel, temperature_c: f64, electrons_per_s: f6
         return wrong(format!(
             "the read noise of {:.4} e⁻ fills the range of the pixel of {range_e:.4} e⁻: photon transfer needs `read_noise_e` up to a tenth of it",
             pixel.read_noise_e
-        ));
-    }
-    let dark_e_s = pixel.dark_current_at(temperature_c);
-    let share = dark_e_s / (dark_e_s + electrons_per_s);
-    if share.is_nan() || share > MOST_DARK {
-        return wrong(format!(
-            "at {temperature_c} °C the dark current brings {dark_e_s:.3e} e⁻/s and the light {electrons_per_s:.3e}: the pixel fills with dark \
-             signal. Give a lower temperature or more light"
         ));
     }
     Ok(PAST_SATURATION * range_e / (electrons_per_s + dark_e_s))
