@@ -223,6 +223,11 @@ fn a_pigment_is_found_from_six_leds() {
         let within =
             (0..truth.len()).filter(|&k| (channel.curve.values[k] - truth[k]).abs() <= 2.58 * channel.standard_uncertainties[k]).count();
         inside += usize::from(within as f64 >= 0.95 * truth.len() as f64);
+        // Forty campaigns, five quantities, of which two numbers are free: five u.
+        for q in &channel.uses {
+            let apart = (q.value - q.truth.unwrap()) / q.standard_uncertainty;
+            assert!(apart.abs() < 5.0, "seed {seed}, {}: {apart} u", q.name);
+        }
     }
     println!("λ_max scatters by {:.2} nm and states {:.2} nm; {inside} of 40 curves within their bands", square.sqrt(), variance.sqrt());
     // A standard deviation of 40 values is known within 11 %; widening by χ²/ν of 4 degrees of freedom makes the stated one larger.
