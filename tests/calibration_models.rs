@@ -223,6 +223,11 @@ fn a_pigment_is_found_from_six_leds() {
         let within =
             (0..truth.len()).filter(|&k| (channel.curve.values[k] - truth[k]).abs() <= 2.58 * channel.standard_uncertainties[k]).count();
         inside += usize::from(within as f64 >= 0.95 * truth.len() as f64);
+        // Forty campaigns, five quantities, of which two numbers are free: five u.
+        for q in &channel.uses {
+            let apart = (q.value - q.truth.unwrap()) / q.standard_uncertainty;
+            assert!(apart.abs() < 5.0, "seed {seed}, {}: {apart} u", q.name);
+        }
     }
     println!("λ_max scatters by {:.2} nm and states {:.2} nm; {inside} of 40 curves within their bands", square.sqrt(), variance.sqrt());
     // A standard deviation of 40 values is known within 11 %; widening by χ²/ν of 4 degrees of freedom makes the stated one larger.
@@ -232,6 +237,13 @@ fn a_pigment_is_found_from_six_leds() {
     for words in ["Model: visual pigment, peak optical density 0.4", "λ_max", "The model explains the readings", "If the model holds"] {
         assert!(text.contains(words), "{words}:\n{text}");
     }
+    assert!(!text.contains("widen `curve`"), "{text}");
+    // A curve that ends where the receptor still sees leaves light of the lamps out, and says so.
+    let mut narrow = calibration.clone();
+    narrow.nodes_nm.retain(|nm| (370.0..=720.0).contains(nm));
+    let watch = Watch { now: &|| 0.0, progress: &|_| {} };
+    let told = calibrate(&narrow, &CalibrateOptions::default(), &watch).unwrap().remarks.join("\n");
+    assert!(told.contains("of the reading under D65 comes from outside of 370 nm to 720 nm"), "{told}");
     let json: serde_json::Value = serde_json::from_str(&to_json(&run(0))).unwrap();
     assert_eq!(json["channels"][0]["model"]["degrees_of_freedom"], 4);
     assert!(json["length_nm"].is_null());

@@ -167,7 +167,7 @@ pub fn fit(exposures: &Exposures, readings: &[Readings], options: &FitOptions) -
         if readings.standard_uncertainties.iter().all(|u| *u > 0.0) && curve.chi_squared > m + MISFIT * (2.0 * m).sqrt() {
             fitted.remarks.push(format!(
                 "{}: the curve does not explain the readings (χ² = {:.3e} of {m} readings), so its uncertainty means nothing: the stated \
-                 uncertainties, the exposures or the rule for the smoothness are wrong",
+                 uncertainties, the exposures, the model or the rule for the smoothness are wrong",
                 curve.channel, curve.chi_squared
             ));
         }

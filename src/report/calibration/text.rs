@@ -13,6 +13,8 @@ use crate::study::calibrate::{Calibrated, CalibratedChannel, UNDETERMINED};
 const ROWS: usize = 17;
 /// Share of a reading from outside of the nodes that is told.
 const TOLD_OUTSIDE: f64 = 1e-4;
+/// Relative uncertainty common to all readings that is told: rays on a bench by formulas leave less.
+const TOLD_SCALE: f64 = 1e-6;
 /// Relative difference of linear and drawn uncertainties that is told.
 const LINEAR: f64 = 0.25;
 
@@ -31,7 +33,7 @@ pub fn to_text(calibrated: &Calibrated) -> String {
         _ => format!("curves of a model: {}", calibrated.prior.0),
     };
     let _ = writeln!(text, "{rays}; {curves}");
-    if calibrated.scale_uncertainty > 0.0 {
+    if calibrated.scale_uncertainty > TOLD_SCALE {
         let _ =
             writeln!(text, "common to all readings: {} % of the irradiance", format_significant(100.0 * calibrated.scale_uncertainty, 2));
     }
@@ -84,8 +86,8 @@ fn channel_text(text: &mut String, calibrated: &Calibrated, channel: &Calibrated
             let _ = writeln!(text, "  The readings do not determine the curve at {}: there it is a guess.", words.join(", "));
             let _ = writeln!(
                 text,
-                "  (Open is more than {} %: of what was unknown before the readings, of what they weigh of a curve that is 1 everywhere; or it lies outside the width \
-                 at half maximum of every exposure.)",
+                "  (A node is open if more than {0} % of what was unknown before the readings still is, if they miss more than {0} % of a curve that is 1 \
+                 everywhere, or if it lies beyond the width at half maximum of the outermost exposures.)",
                 100.0 * UNDETERMINED
             );
         }

@@ -17,6 +17,8 @@ use crate::spectrum::{Density, Factor, SpectrumError, library};
 
 /// Draws of the Monte Carlo check.
 pub const DRAWS: usize = 1000;
+/// Share of a lamp's reading from beyond the nodes that is told.
+const TOLD_BEYOND: f64 = 1e-4;
 /// Step of the sums that stand for the integral of |c s − V| in draws and derivatives, nm.
 const STEP_NM: f64 = 0.25;
 /// Keeps the random numbers of the draws apart from those of the readings, whose streams begin with the number of a channel.
@@ -115,6 +117,26 @@ pub fn uses(
         }
     }
     Ok(drawn(curve, quantities, scale, seed))
+}
+
+/// Lamps under which the true curve reads something from beyond the nodes, in words: F* and s_v do not hold that, nor does their uncertainty.
+///
+/// # Errors
+/// Nodes that are no band.
+pub fn beyond_nodes(nodes_nm: &[f64], truth: &Factor, lamps: &[(String, Density)]) -> Result<Vec<String>, SpectrumError> {
+    let (from, to) = (nodes_nm[0], nodes_nm[nodes_nm.len() - 1]);
+    let within = Factor::band(from, to, 1.0)?;
+    let share = |lamp: &Density| 1.0 - lamp.integral(&[truth, &within]) / lamp.integral(&[truth]);
+    let of = |(name, lamp): &(String, Density)| {
+        let share = share(lamp);
+        (share > TOLD_BEYOND).then(|| {
+            format!(
+                "{:.2} % of the reading under {name} comes from outside of {from} nm to {to} nm, which its F* and s_v and their uncertainties leave out; widen `curve`",
+                100.0 * share
+            )
+        })
+    };
+    Ok(lamps.iter().filter_map(of).collect())
 }
 
 /// Linear propagation and draws of all quantities.
