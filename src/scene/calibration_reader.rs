@@ -19,6 +19,7 @@
 //! | `noise` | `relative`, a share of the reading; `absolute` and `dark` in the unit of the reading |
 //! | `repeats` | readings of each exposure, averaged; 1 |
 //! | `scale_uncertainty` | relative standard uncertainty of the irradiance, common to all readings; 0 |
+//! | `reference` | a detector of known responsivity that measures the light (`substitution_reader.rs`) |
 //! | `curve` | nodes of the fitted curve |
 //! | `lamps` | for which the reading with the fitted curve is propagated; `["A", "D65"]` |
 
@@ -33,11 +34,24 @@ use super::reader::read_scene_document;
 use super::reading::Reading;
 use super::sensor_reader::read_sensor;
 use super::spectrum_reader::read_spectrum;
+use super::substitution_reader::read_reference;
 use crate::naming::suggestion;
 use crate::spectrum::{Density, library};
 
-const KEYS: [&str; 11] =
-    ["title", "bench", "sensor", "test_surface", "exposures", "candidates", "noise", "repeats", "scale_uncertainty", "curve", "lamps"];
+const KEYS: [&str; 12] = [
+    "title",
+    "bench",
+    "sensor",
+    "test_surface",
+    "exposures",
+    "candidates",
+    "noise",
+    "repeats",
+    "scale_uncertainty",
+    "reference",
+    "curve",
+    "lamps",
+];
 /// Most nodes of a curve: its covariance has the square of that.
 const MOST_NODES: f64 = 2000.0;
 
@@ -87,6 +101,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Calibrati
     let repeats = number("repeats", 1.0, "whole numbers, 1 to 1e6", |x| x.fract() == 0.0 && (1.0..=1e6).contains(&x), reading);
     let scale = number("scale_uncertainty", 0.0, "0 to 1, a share", |x| (0.0..=1.0).contains(&x), reading);
     let lamps = read_lamps(fields.get("lamps"), reading);
+    let reference = read_reference(&fields, reading);
     let (bench, test_surface) = bench?;
     let offer =
         Bench { power: bench.sources[0].density.total(), poses: bench.instruments[0].poses.len(), test_surface: test_surface.is_some() };
@@ -107,6 +122,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Calibrati
         noise: noise?,
         repeats: repeats? as u32,
         scale_uncertainty: scale?,
+        reference: reference?,
         nodes_nm,
         lamps: lamps?,
         hash: reading.hash,
@@ -175,7 +191,7 @@ fn read_list(fields: &Fields, key: &str, bench: &Bench, reading: &mut Reading) -
     Some(found)
 }
 
-fn read_noise(value: &Value, reading: &mut Reading) -> Option<Noise> {
+pub(super) fn read_noise(value: &Value, reading: &mut Reading) -> Option<Noise> {
     let before = reading.problems.count();
     let fields = value.fields("the noise", &["relative", "absolute", "dark"], &mut reading.problems)?;
     let problems = &mut reading.problems;

@@ -16,8 +16,10 @@ pub mod suggest;
 
 use std::fmt;
 
+use crate::calibration::evidence::RulePoint;
 use crate::calibration::{CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, PriorKind, Readings, fit};
 use crate::characterization::campaign::{self, CampaignError, ChannelReadings, Light};
+use crate::characterization::substitution::{self, MeasuredBeam};
 use crate::estimate::{Stop, Watch};
 use crate::quantity::Measurand;
 use crate::scene::Calibration;
@@ -45,7 +47,7 @@ pub struct CalibrateOptions {
     pub wanted: Wanted,
     /// When the ray engine stops.
     pub stop: Stop,
-    /// Readings of a laboratory, a channel each; simulated if there are none.
+    /// Readings of a laboratory, a channel each and then the reference, if the campaign has one; simulated if there are none.
     pub data: Option<Vec<ChannelReadings>>,
 }
 
@@ -140,10 +142,14 @@ pub struct Calibrated {
     pub nodes_nm: Vec<f64>,
     /// Relative standard uncertainty that is common to the whole curve: irradiance scale and rays.
     pub scale_uncertainty: f64,
+    /// The light, if a reference detector measured it.
+    pub beam: Option<MeasuredBeam>,
     /// The channels.
     pub channels: Vec<CalibratedChannel>,
     /// The prior that the readings speak for, in words, and its length, nm.
     pub prior: (String, f64),
+    /// What the classic rules for the smoothness look at, a channel each; empty unless one was asked for.
+    pub rule_points: Vec<Vec<RulePoint>>,
     /// What further exposures are to make more certain.
     pub wanted: Wanted,
     /// Further exposures, the best first.
@@ -164,17 +170,27 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     let light = campaign::light(calibration, &options.stop, options.seed, watch)?;
     let count = calibration.exposures.len();
     let (taken, candidates) = light.spectra.split_at(count);
-    let readings = match &options.data {
+    let mut readings = match &options.data {
         Some(data) => data.clone(),
         None => campaign::simulated(calibration, taken, options.seed),
     };
+    let beam = beam(calibration, options, &mut readings, watch)?;
     let nodes = &calibration.nodes_nm;
-    let exposures = Exposures::new(nodes, taken)?;
+    let exposures = match &beam {
+        None => Exposures::new(nodes, taken)?,
+        Some(beam) => Exposures::new(nodes, &at_power(taken, &beam.powers)?)?,
+    };
     let sensor = &calibration.bench.instruments[0].sensor;
     let factors: Vec<f64> = sensor.channels.iter().map(|c| campaign::geometry_factor(sensor, c)).collect();
-    let scaled: Vec<Readings> = readings.iter().zip(&factors).map(|(r, g)| per_factor(r, *g)).collect();
-    let fitted = fit(&exposures, &scaled, &FitOptions { prior: prior(options, &readings, nodes), ..options.fit.clone() })?;
-    let scale_uncertainty = calibration.scale_uncertainty.hypot(light.relative_uncertainty);
+    let scaled: Vec<Readings> = readings.iter().zip(&factors).map(|(r, g)| per_factor(r, *g, beam.as_ref())).collect();
+    let mut fitted = fit(&exposures, &scaled, &FitOptions { prior: prior(options, &readings, nodes), ..options.fit.clone() })?;
+    let mut scale_uncertainty = calibration.scale_uncertainty.hypot(light.relative_uncertainty);
+    if let Some(beam) = &beam {
+        scale_uncertainty = scale_uncertainty.hypot(beam.scale_uncertainty);
+        for (curve, readings) in fitted.curves.iter_mut().zip(&scaled) {
+            add_shared(curve, readings, &beam.shared);
+        }
+    }
     let mut channels = Vec::with_capacity(readings.len());
     let mut remarks = calibration.remarks.clone();
     remarks.extend(fitted.remarks.iter().cloned());
@@ -194,7 +210,37 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     } else {
         Vec::new()
     };
-    Ok(assembled(calibration, options, &light, exposures, &fitted, channels, suggestions, scale_uncertainty, remarks))
+    let assembled = assembled(calibration, options, &light, exposures, &fitted, channels, suggestions, scale_uncertainty, remarks);
+    Ok(Calibrated { beam, ..assembled })
+}
+
+/// The light as the reference measured it; takes the reference's readings, the last ones, from those of a laboratory.
+fn beam(
+    calibration: &Calibration,
+    options: &CalibrateOptions,
+    readings: &mut Vec<ChannelReadings>,
+    watch: &Watch<'_>,
+) -> Result<Option<MeasuredBeam>, CalibrateError> {
+    let Some(reference) = &calibration.reference else { return Ok(None) };
+    let light = substitution::light(calibration, reference, &options.stop, options.seed, watch)?;
+    let channels = calibration.bench.instruments[0].sensor.channels.len();
+    let given = (readings.len() > channels).then(|| readings.remove(channels));
+    let read = given.unwrap_or_else(|| substitution::simulated(calibration, reference, &light, options.seed));
+    Ok(Some(substitution::measured(reference, &light, read)?))
+}
+
+/// The spectra at these powers over nominal power.
+fn at_power(spectra: &[(String, Density)], powers: &[f64]) -> Result<Vec<(String, Density)>, SpectrumError> {
+    spectra.iter().zip(powers).map(|((label, light), power)| Ok((label.clone(), light.scaled(*power)?))).collect()
+}
+
+/// Causes that move all readings together move the curve by `gain · (share ∘ readings)`.
+fn add_shared(curve: &mut FittedCurve, readings: &Readings, shared: &[Vec<f64>]) {
+    for shares in shared {
+        let moved = nalgebra::DVector::from_iterator(readings.values.len(), readings.values.iter().zip(shares).map(|(y, r)| y * r));
+        let by = &curve.gain * moved;
+        curve.structure.ger(1.0, &by, &by, 1.0);
+    }
 }
 
 /// Derivatives of the quantity of this name, a channel each.
@@ -227,8 +273,10 @@ fn assembled(
         exposures,
         nodes_nm: calibration.nodes_nm.clone(),
         scale_uncertainty,
+        beam: None,
         channels,
         prior: (fitted.prior.clone(), fitted.length_nm),
+        rule_points: fitted.rule_points.clone(),
         wanted: options.wanted.clone(),
         suggestions,
         seed: options.seed,
@@ -247,12 +295,14 @@ fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f
     }
 }
 
-/// Readings per unit of what the geometry factor multiplies.
-fn per_factor(readings: &ChannelReadings, factor: f64) -> Readings {
+/// Readings per unit of what the geometry factor multiplies; how well the power of the beam is known is a part of their uncertainty.
+fn per_factor(readings: &ChannelReadings, factor: f64, beam: Option<&MeasuredBeam>) -> Readings {
+    let power = |i: usize| beam.and_then(|beam| beam.relative_uncertainties.get(i)).copied().unwrap_or(0.0);
+    let all = readings.values.iter().zip(&readings.standard_uncertainties).enumerate();
     Readings {
         channel: readings.channel.clone(),
         values: readings.values.iter().map(|y| y / factor).collect(),
-        standard_uncertainties: readings.standard_uncertainties.iter().map(|u| u / factor).collect(),
+        standard_uncertainties: all.map(|(i, (y, u))| u.hypot(y * power(i)) / factor).collect(),
     }
 }
 
