@@ -1,5 +1,5 @@
-//! Time of a picture: one megapixel of a chart under two lamps, on one thread.
-#![allow(missing_docs)]
+//! Time of a picture: one megapixel of a chart under two lamps, on one thread. Says in plain words what one takes.
+#![allow(missing_docs, clippy::print_stdout)]
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -40,6 +40,14 @@ fn main() {
     }
     group.finish();
     criterion.final_summary();
+    let stop = Stop { target: None, budget_seconds: None, samples: Some(8) };
+    let start = Instant::now();
+    let frame = with_threads(Some(1), || expose(&scene, &plan, 0, &stop, 0, &watch)).unwrap_or_else(|e| panic!("{e}"));
+    println!(
+        "a frame of {} megapixels of a direct-lit chart, 8 samples a pixel, takes {:.2} s of one thread; asked for: less than 5 s",
+        (frame.columns * frame.rows) as f64 / f64::from(1 << 20),
+        start.elapsed().as_secs_f64()
+    );
 }
 
 /// 24 patches in a plane between two panels, before a Bayer camera.

@@ -261,6 +261,58 @@ fn a_place_that_cannot_be_written_is_told_with_what_to_type() {
     assert_eq!(std::fs::read_dir(folder.join("taken")).unwrap().count(), 1, "nothing half-written is left behind");
 }
 
+/// Several files are written together or not at all, and every place is told at once.
+#[test]
+fn a_folder_in_the_place_of_one_of_several_files_leaves_none_behind() {
+    let folder = scratch("together");
+    let commands: [(&[&str], &[&str]); 3] = [
+        (&["datasheet", "sensors/ideal-illuminance-meter.ron"], &["sheet.json"]),
+        #[cfg(feature = "image")]
+        (
+            &["expose", "scenes/flat-field-of-a-camera.ron", "--samples", "4", "--frames", "2"],
+            &["camera-luminance.png", "camera-frame-0001.png"],
+        ),
+        #[cfg(not(feature = "image"))]
+        (&["datasheet", "sensors/uv-index-sensor.ron"], &["sheet.txt"]),
+        (&["calibrate", "scenes/calibration/monochromator.ron"], &["monochromator-readings.csv"]),
+    ];
+    for (k, (command, taken)) in commands.iter().enumerate() {
+        let out = folder.join(k.to_string());
+        taken.iter().for_each(|name| std::fs::create_dir_all(out.join(name)).unwrap());
+        let output = etendue(&[command, &["--out", out.to_str().unwrap()][..]].concat());
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{command:?}: {}", stderr(&output));
+        assert!(taken.iter().all(|name| stderr(&output).contains(name)), "{command:?}: {}", stderr(&output));
+        assert_eq!(std::fs::read_dir(&out).unwrap().count(), taken.len(), "{command:?}");
+        // A folder that is made for a run that fails goes with it, and one that works is complete.
+        taken.iter().for_each(|name| std::fs::remove_dir(out.join(name)).unwrap());
+        let output = etendue(&[command, &["--out", out.to_str().unwrap()][..]].concat());
+        assert_eq!(output.status.code(), Some(0), "{command:?}: {}", stderr(&output));
+        let names: Vec<String> = std::fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        assert!(names.len() > 1 && taken.iter().all(|name| names.iter().any(|found| found == name)), "{names:?}");
+        assert!(!names.iter().any(|name| name.ends_with(".partial")), "{names:?}");
+    }
+}
+
+#[test]
+fn whatever_a_file_holds_can_be_checked() {
+    for (file, said) in [
+        ("sensors/class-b-lux-meter.ron", "ok: a sensor with 1 channel"),
+        ("sensors/rgb-camera.ron", "ok: a camera of 1200 × 840 pixels with 3 channels"),
+        ("sensors/pixels/monochrome-12-bit.ron", "ok: a pixel of 14000 e⁻ and 12 bits"),
+        ("scenes/calibration/monochromator.ron", "ok: a calibration with "),
+        ("scenes/photometric-bench.ron", "ok: 1 source"),
+    ] {
+        let output = etendue(&["check", file]);
+        let found = String::from_utf8(output.stdout.clone()).unwrap();
+        assert!(output.status.success() && found.starts_with(said), "{file}: {found}{}", stderr(&output));
+    }
+    let folder = scratch("checked");
+    let meter = folder.join("meter.ron");
+    std::fs::write(&meter, "Sensor(aperture: Point, acceptance: Cosin, channels: [])").unwrap();
+    let output = etendue(&["check", meter.to_str().unwrap()]);
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("did you mean `Cosine`"), "{}", stderr(&output));
+}
+
 /// A limit on the length of a file stands in for a full disk: it fails in the middle of writing as well.
 #[cfg(unix)]
 #[test]

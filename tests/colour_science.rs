@@ -6,40 +6,16 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
-use std::path::{Path, PathBuf};
+mod python;
+
+use std::path::Path;
 use std::process::Command;
 
 /// The version that the tolerances were stated for.
 const PACKAGE: &str = "colour-science==0.4.7";
-/// How long an installation may wait for an answer of the network, s.
-const PATIENCE_S: &str = "15";
-
-/// A Python that has the package; why there is none.
-fn python() -> Result<PathBuf, String> {
-    let home = Path::new(env!("CARGO_TARGET_TMPDIR")).join("colour-science-0.4.7");
-    let (python, done) = (home.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" }), home.join("installed"));
-    if done.exists() {
-        return Ok(python);
-    }
-    run(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&home))?;
-    let options = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--prefer-binary", "--retries", "1", "--timeout"];
-    run(Command::new(&python).args(options).args([PATIENCE_S, PACKAGE]))?;
-    run(Command::new(&python).args(["-c", "import colour"]))?;
-    std::fs::write(&done, PACKAGE).map_err(|error| error.to_string())?;
-    Ok(python)
-}
-
-fn run(command: &mut Command) -> Result<(), String> {
-    match command.output() {
-        Ok(output) if output.status.success() => Ok(()),
-        Ok(output) => Err(String::from_utf8_lossy(&output.stderr).trim().to_owned()),
-        Err(error) => Err(format!("{}: {error}", command.get_program().to_string_lossy())),
-    }
-}
-
 #[test]
 fn spectra_agree_with_colour_science() {
-    let python = match python() {
+    let python = match python::python_with(PACKAGE, "colour") {
         Ok(python) => python,
         Err(why) => {
             eprintln!("skipped: {PACKAGE} cannot be had here:\n{why}");

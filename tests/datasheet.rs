@@ -201,6 +201,35 @@ fn electronics_show_in_linearity_and_range_change() {
 }
 
 #[test]
+fn a_class_without_all_indices_is_said_to_be_the_best_that_is_possible() {
+    // The readout ends at 0.2 lx, below the weakest light of the bench.
+    let meter = written(
+        r#"Sensor(title: "t", aperture: Point, acceptance: Cosine, channels: [(name: "E_v", responsivity: "V", reads: Illuminance)],
+            readout: Photodiode(feedback_ohm: 1e10, bandwidth_hz: 1, saturation_v: 2, current_a_per_unit: 1e-9))"#,
+    );
+    let sheet = sheet_of(meter).unwrap();
+    let channel = &sheet.channels[0];
+    assert_eq!((channel.unknown.as_slice(), channel.class.unwrap().class), (["f3"].as_slice(), Some(Class::L)));
+    let text = to_text(&sheet);
+    for part in ["class L at best, p", "f3 is not known", "total at least", "f3, f4, f5"] {
+        assert!(text.contains(part), "`{part}` is not in:\n{text}");
+    }
+    assert!(to_json(&sheet).contains("\"not_known\": [\n        \"f3\""));
+    // Nothing is missing where there are no ranges to change.
+    let ideal = written(r#"Sensor(aperture: Point, acceptance: Cosine, channels: [(name: "E_v", responsivity: "V", reads: Illuminance)])"#);
+    assert!(sheet_of(ideal).unwrap().channels[0].unknown.is_empty());
+}
+
+#[test]
+fn a_uv_index_is_erythemal_irradiance_in_another_unit() {
+    let sheet = sheet_of(sensor("uv-index-sensor.ron")).unwrap();
+    let [irradiance, index] = [0, 1].map(|k| sheet.channels[k].indices.iter().find(|index| index.symbol == "f1′").unwrap());
+    assert!((irradiance.computed.value - index.computed.value).abs() < 1e-12);
+    let text = to_text(&sheet);
+    assert!(text.contains("UVI: UV index, a number") && !text.contains(" in \n"), "{text}");
+}
+
+#[test]
 fn heads_have_an_index_of_their_own_and_ideal_ones_have_none() {
     for (file, symbol) in [
         ("spherical-illuminance-meter.ron", "f2,0"),

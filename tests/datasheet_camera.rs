@@ -135,7 +135,7 @@ fn the_command_takes_cameras() {
     let words = String::from_utf8(output.stderr).unwrap();
     std::fs::remove_dir_all(&folder).unwrap();
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    assert!(words.contains("without.ron") && words.contains("add `pixel: Pixel("), "{words}");
+    assert!(words.contains("without.ron:5:1") && words.contains("add `pixel: Pixel("), "{words}");
     let output = etendue(&["datasheet", "sensors/mono-camera.ron", "--wavelength", "0"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("such as 525"));
     let output = etendue(&["datasheet", "sensors/pixels/monochrome-12-bit.ron"]);

@@ -193,6 +193,8 @@ fn a_display_shows_what_its_electronics_make_of_the_light() {
         over.value,
         over.notes
     );
+    // One side of it is known, and no target can be met.
+    assert!(!over.target_met && over.notes.iter().any(|note| note.contains("lower bound")), "{:?}", over.notes);
     let switched = &read(&scene(LAMP, &sensor("ranges: [(feedback_ohm: 1e7), (feedback_ohm: 1e5)]")))[0];
     assert!(switched.readout.as_ref().unwrap().saturation.is_none() && (switched.value - 200.0).abs() < 101.0);
 }

@@ -174,6 +174,14 @@ fn laws() -> Vec<Law> {
         },
         // Patch by patch against direct integration: tests/cameras/chart.rs.
         law("colour-chart.ron", [8, 16], &[]),
+        Law {
+            // On the axis π L/(1 + 4 N²), 5 µm pixels, η = 0.8 · 0.75, 5 ms; the fall-off over the middle is 5e-6. V(525 nm) = 0.7932.
+            near: vec![
+                ("camera: middle", 0, "grey", 0.6 * 5e-3 * 2_423_714.3, 2e-5),
+                ("camera: middle", 0, "L_v", 3.0 * 683.002 * 0.7932, 1e-4),
+            ],
+            ..law("flat-field-of-a-camera.ron", [8, 16], &[])
+        },
         law("mesh.ron", [131072, 65536], &[]),
         law("ten-instruments.ron", [8192, 8192], &[]),
         Law {

@@ -23,6 +23,9 @@ use nalgebra::DMatrix;
 use crate::spectrum::kernel::Weights;
 use crate::spectrum::{Density, SpectrumError};
 
+/// A node has light if it weighs at least this share of the strongest node of an exposure: it lies within the exposure's full width at half maximum.
+const DARK: f64 = 0.5;
+
 /// Spectra of the exposures as rows of weights on the nodes of the curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exposures {
@@ -80,6 +83,13 @@ impl Exposures {
         if i < self.len() { self.matrix.row(i).iter().copied().collect() } else { Vec::new() }
     }
 
+    /// From the first wavelength that has light to the last, for the light of any exposure, nm; `None` if none has.
+    #[must_use]
+    pub fn lit_nm(&self) -> Option<(f64, f64)> {
+        let nodes = lit(&self.matrix);
+        Some((*self.wavelengths_nm.get(*nodes.start())?, *self.wavelengths_nm.get(*nodes.end())?))
+    }
+
     /// What a curve would read, without noise.
     #[must_use]
     pub fn expected(&self, curve: &[f64]) -> Vec<f64> {
@@ -107,4 +117,17 @@ pub struct Readings {
     pub values: Vec<f64>,
     /// Their standard uncertainties; zero for readings without noise.
     pub standard_uncertainties: Vec<f64>,
+}
+
+/// From the first node that has light to the last, for the light of any exposure.
+pub(super) fn lit(matrix: &DMatrix<f64>) -> std::ops::RangeInclusive<usize> {
+    let (mut first, mut last) = (usize::MAX, 0);
+    for row in matrix.row_iter() {
+        let least = DARK * row.amax();
+        for (k, _) in row.iter().enumerate().filter(|(_, a)| a.abs() > 0.0 && a.abs() >= least * (1.0 - 1e-9)) {
+            first = first.min(k);
+            last = last.max(k);
+        }
+    }
+    first..=last
 }

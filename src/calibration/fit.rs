@@ -12,25 +12,23 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::consistency::{self, Consistency, Outliers};
 use super::error::CalibrationError;
 use super::evidence::{ClassicRule, RulePoint, Trial, Whitened, classic_scale, rule_points, weighted};
-use super::exposures::{Exposures, Readings};
+use super::exposures::{Exposures, Readings, lit};
 use super::non_negative::nearest;
+use super::parametric::Model;
+use super::parametric_fit::{Parametric, fit_model};
 use super::posterior::{self, Posterior};
 use super::prior::{self, Candidate, PriorKind, Smoothness};
+use super::whitening::whitened;
 
 /// Widening of the structure variance's root.
 const STRUCTURE_FACTOR: f64 = 2.0;
 /// Where the curve is zero its ripples are as large as where it is this share of its peak.
 const ENVELOPE_FLOOR: f64 = 0.03;
-/// A node has light if it weighs at least this share of the strongest node of an exposure.
-const DARK: f64 = 0.05;
-/// Readings have at least the rounding of double precision, as a share of the largest.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Lengths per factor e in the first search, and in the second about the best.
 const LENGTHS_PER_E: (f64, f64) = (2.5, 5.0);
-/// Largest reading and uncertainty.
-const LARGEST: f64 = 1e100;
 /// Standard deviations of χ² beyond which a fit is said not to hold.
 const MISFIT: f64 = 6.0;
 /// A search ends when ln p has fallen by this much below its best.
@@ -49,10 +47,14 @@ pub enum Chooser {
 /// How to fit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FitOptions {
+    /// What the curve is: any smooth one, or one of few parameters.
+    pub model: Model,
     /// Which curves are plausible.
     pub prior: PriorKind,
     /// How the smoothness is chosen.
     pub chooser: Chooser,
+    /// What becomes of readings that contradict the rest.
+    pub outliers: Outliers,
 }
 
 /// A fitted curve.
@@ -71,15 +73,22 @@ pub struct FittedCurve {
     pub expected: DMatrix<f64>,
     /// `curve = gain · readings`, but for non-negativity.
     pub gain: DMatrix<f64>,
-    /// Share of the variance before the readings that is left, 0 to 1, a node each: near 1 the curve there is the prior's guess. It is 1 below the
-    /// first and above the last node that has light: how a curve goes on is not known from where it was seen.
+    /// What is open, 0 to 1, a node each: near 1 the curve there is the prior's guess. The share of the variance before the readings that is left, or what
+    /// the averaging kernel misses of a curve that is 1 everywhere, whichever is larger (a camera's prior holds no such curve). It is 1 below the first and
+    /// above the last node within the width at half maximum of an exposure: how a curve goes on is not known from where it was seen.
     pub undetermined: Vec<f64>,
-    /// χ² of the residuals in units of the stated uncertainties.
+    /// χ² of the residuals in units of the uncertainties, those of down-weighted readings widened.
     pub chi_squared: f64,
     /// How many numbers the readings determine.
     pub effective_parameters: f64,
-    /// Residuals over their standard uncertainties.
+    /// Residuals over their stated standard uncertainties.
     pub residuals: Vec<f64>,
+    /// Which readings contradict the rest.
+    pub consistency: Consistency,
+    /// What the square of each reading's uncertainty was divided by, an exposure each: 1, unless readings were down-weighted.
+    pub weights: Vec<f64>,
+    /// The parameters, if the curve is that of a parametric model.
+    pub parametric: Option<Parametric>,
 }
 
 /// What came of a fit.
@@ -89,9 +98,9 @@ pub struct Fitted {
     pub wavelengths_nm: Vec<f64>,
     /// A channel each.
     pub curves: Vec<FittedCurve>,
-    /// The prior that the readings speak for, in words.
+    /// The prior that the readings speak for, or the parametric model, in words.
     pub prior: String,
-    /// Its length, nm.
+    /// Its length, nm; not a number for a parametric model, and neither is the next.
     pub length_nm: f64,
     /// ln p of the readings, up to a constant.
     pub log_evidence: f64,
@@ -137,11 +146,21 @@ impl FittedCurve {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn fit(exposures: &Exposures, readings: &[Readings], options: &FitOptions) -> Result<Fitted, CalibrationError> {
-    let data = whitened(exposures, readings)?;
-    let mut fitted = match options.chooser {
-        Chooser::Evidence => by_evidence(exposures, readings, &options.prior, &data)?,
-        Chooser::Classic(rule) => by_rule(exposures, readings, rule, &data)?,
+    let once = |exposures: &Exposures, readings: &[Readings]| -> Result<Fitted, CalibrationError> {
+        let data = whitened(exposures, readings)?;
+        match (&options.model, options.chooser) {
+            (Model::Smooth, Chooser::Evidence) => by_evidence(exposures, readings, &options.prior, &data),
+            (Model::Smooth, Chooser::Classic(rule)) => by_rule(exposures, readings, rule, &data),
+            (model, Chooser::Evidence) => {
+                fit_model(exposures, readings, model, &by_evidence(exposures, readings, &options.prior, &data)?, &data)
+            }
+            (_, Chooser::Classic(_)) => {
+                let say = "a parametric model has no smoothness to be chosen; leave out the rule (`--choose`) or the model";
+                Err(CalibrationError::Model(say.to_owned()))
+            }
+        }
     };
+    let mut fitted = consistency::examined(exposures, readings, options.outliers, &once)?;
     for (curve, readings) in fitted.curves.iter().zip(readings) {
         let m = exposures.len() as f64;
         // Readings without noise are held to their rounding, which says nothing of the model.
@@ -154,56 +173,6 @@ pub fn fit(exposures: &Exposures, readings: &[Readings], options: &FitOptions) -
         }
     }
     Ok(fitted)
-}
-
-fn whitened(exposures: &Exposures, readings: &[Readings]) -> Result<Whitened, CalibrationError> {
-    let m = exposures.len();
-    let unusable = |what: String| Err(CalibrationError::Readings(what));
-    if m == 0 || readings.is_empty() {
-        return unusable("there are no readings".to_owned());
-    }
-    for r in readings {
-        if r.values.len() != m || r.standard_uncertainties.len() != m {
-            return unusable(format!(
-                "channel `{}` has {} readings with {} uncertainties for {m} exposures; give one of each for every exposure",
-                r.channel,
-                r.values.len(),
-                r.standard_uncertainties.len()
-            ));
-        }
-        for (i, (y, u)) in r.values.iter().zip(&r.standard_uncertainties).enumerate() {
-            let which = format!("channel `{}`, exposure {} (`{}`)", r.channel, i + 1, exposures.labels().get(i).map_or("", |l| l));
-            // Squares of what is beyond leave the range of numbers.
-            if y.abs() > LARGEST || *u > LARGEST {
-                return unusable(format!("{which}: {y:e} ± {u:e} is beyond what can be fitted; allowed: up to {LARGEST:e}"));
-            }
-            if !y.is_finite() {
-                return unusable(format!("{which}: the reading is {y}; leave the exposure out or give a number"));
-            }
-            if !(u.is_finite() && *u >= 0.0) {
-                return unusable(format!("{which}: the standard uncertainty is {u}; allowed: 0 or more"));
-            }
-        }
-    }
-    let largest = readings.iter().flat_map(|r| &r.values).fold(0.0f64, |most, y| most.max(y.abs()));
-    let sees = (0..m).map(|i| exposures.matrix.row(i).iter().map(|a| a.abs()).sum::<f64>()).fold(0.0, f64::max);
-    if sees == 0.0 || !sees.is_finite() {
-        return Err(CalibrationError::NothingSeen);
-    }
-    if largest == 0.0 {
-        return unusable("every reading is zero: the sensor saw nothing, and no curve has a scale".to_owned());
-    }
-    // Exposures are shared, so is the unit of each: the channels' noise is, on every instrument known here, of one size.
-    let units: Vec<f64> = (0..m)
-        .map(|i| {
-            let square = readings.iter().map(|r| r.standard_uncertainties[i].powi(2)).sum::<f64>() / readings.len() as f64;
-            square.sqrt().hypot(ROUNDING * largest)
-        })
-        .collect();
-    let matrix = DMatrix::from_fn(m, exposures.matrix.ncols(), |i, k| exposures.matrix[(i, k)] / units[i]);
-    let readings = readings.iter().map(|r| DVector::from_fn(m, |i, _| r.values[i] / units[i])).collect();
-    let left_out = prior::left_out(units.iter().copied().fold(f64::INFINITY, f64::min) / largest);
-    Ok(Whitened { matrix, readings, units, scale: largest / sees, left_out })
 }
 
 fn by_evidence(exposures: &Exposures, readings: &[Readings], kind: &PriorKind, data: &Whitened) -> Result<Fitted, CalibrationError> {
@@ -240,7 +209,7 @@ fn by_evidence(exposures: &Exposures, readings: &[Readings], kind: &PriorKind, d
         let second = posterior::average(&weights, c, data);
         let curve = non_negative(&second, chosen, c, data, &readings[c].channel, &mut remarks)?;
         let structure = first.structure.clone() * STRUCTURE_FACTOR.powi(2);
-        curves.push(fitted(&readings[c], c, &curve, second, structure, &first, data));
+        curves.push(fitted(&readings[c], c, &curve, second, structure, &first, untouched == 0, data));
     }
     Ok(Fitted {
         wavelengths_nm: nodes.to_vec(),
@@ -302,7 +271,7 @@ fn by_rule(exposures: &Exposures, readings: &[Readings], rule: ClassicRule, data
         let curve = made_non_negative(&posterior.mean, &root, &r.channel, &mut remarks)?;
         let structure = posterior.structure.clone();
         let first = posterior.clone();
-        curves.push(fitted(r, c, &curve, posterior, structure, &first, data));
+        curves.push(fitted(r, c, &curve, posterior, structure, &first, true, data));
         points.push(of_channel);
     }
     Ok(Fitted {
@@ -344,6 +313,7 @@ fn made_non_negative(
     Ok(found.curve)
 }
 
+#[allow(clippy::too_many_arguments)]
 fn fitted(
     readings: &Readings,
     channel: usize,
@@ -351,12 +321,17 @@ fn fitted(
     posterior: Posterior,
     structure: DMatrix<f64>,
     first: &Posterior,
+    constants: bool,
     data: &Whitened,
 ) -> FittedCurve {
     let residuals: DVector<f64> = &data.readings[channel] - &data.matrix * curve;
     let lit = lit(&data.matrix);
     let left =
         |k: usize| if first.prior_variance[k] > 0.0 { (first.structure[(k, k)] / first.prior_variance[k]).clamp(0.0, 1.0) } else { 0.0 };
+    // The row of the averaging kernel, summed: what becomes of a curve that is 1 everywhere.
+    let light = DVector::from_fn(data.units.len(), |i, _| data.units[i] * data.matrix.row(i).sum());
+    let resolved = &first.gain * light;
+    let left = |k: usize| if constants { left(k).max((1.0 - resolved[k]).abs().min(1.0)) } else { left(k) };
     let undetermined = (0..curve.len()).map(|k| if lit.contains(&k) { left(k) } else { 1.0 }).collect();
     // tr(A G): what the fitted readings owe to the readings.
     let effective_parameters = (0..data.units.len())
@@ -373,18 +348,8 @@ fn fitted(
         chi_squared: residuals.norm_squared(),
         effective_parameters,
         residuals: residuals.iter().copied().collect(),
+        consistency: Consistency::default(),
+        weights: vec![1.0; data.units.len()],
+        parametric: None,
     }
-}
-
-/// From the first node that has light to the last, for the light of any exposure.
-fn lit(matrix: &DMatrix<f64>) -> std::ops::RangeInclusive<usize> {
-    let (mut first, mut last) = (usize::MAX, 0);
-    for row in matrix.row_iter() {
-        let least = DARK * row.amax();
-        for (k, _) in row.iter().enumerate().filter(|(_, a)| a.abs() > least) {
-            first = first.min(k);
-            last = last.max(k);
-        }
-    }
-    first..=last
 }

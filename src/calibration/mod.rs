@@ -16,24 +16,38 @@
 //! | [`posterior`] | curve, covariance, averaging kernels |
 //! | [`non_negative`] | the most plausible curve that is nowhere negative |
 //! | [`propagation`] | what a curve is used for, with its uncertainty |
+//! | [`simultaneous`] | the band that holds the whole curve at once |
 //! | [`suggestion`] | what a further reading would take from the covariance |
+//! | [`parametric`] | curves of few parameters: sums of Gaussians, a filter before a detector, a visual pigment |
+//! | [`least_squares`] | Levenberg and Marquardt |
+//! | [`parametric_fit`] | the parameters from readings, and the curve with its covariance |
+//! | [`consistency`] | which readings contradict the rest, and what becomes of them |
+//! | [`whitening`] | readings in units of their uncertainties, after checks |
 //! | [`error`] | why readings cannot be fitted |
 //! | [`mod@fit`] | all of it, from exposures and readings to a fitted curve |
 //!
 //! Works on real and on simulated readings alike; knows no scenes and no rays.
 
+pub mod consistency;
 pub mod error;
 pub mod evidence;
 pub mod exposures;
 pub mod fit;
+pub mod least_squares;
 mod low_rank;
 pub mod non_negative;
+pub mod parametric;
+pub mod parametric_fit;
 pub mod posterior;
 pub mod prior;
 pub mod propagation;
+pub mod simultaneous;
 pub mod suggestion;
+pub mod whitening;
 
+pub use consistency::Outliers;
 pub use error::CalibrationError;
 pub use exposures::{Exposures, Readings};
 pub use fit::{Chooser, FitOptions, Fitted, FittedCurve, fit};
+pub use parametric::{Model, OpticalDensity};
 pub use prior::PriorKind;

@@ -73,7 +73,7 @@ pub(super) fn average(trials: &[(&Trial, f64)], channel: usize, data: &Whitened)
 }
 
 /// `M diag(d) Mᵀ`.
-fn product(m: &DMatrix<f64>, d: &DVector<f64>) -> DMatrix<f64> {
+pub(super) fn product(m: &DMatrix<f64>, d: &DVector<f64>) -> DMatrix<f64> {
     let half = m * DMatrix::from_diagonal(&d.map(f64::sqrt));
     &half * half.transpose()
 }

@@ -49,7 +49,7 @@ pub fn covariance_root(curve: &FittedCurve) -> Vec<Vec<f64>> {
     root.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
-fn root_of(curve: &FittedCurve) -> DMatrix<f64> {
+pub(super) fn root_of(curve: &FittedCurve) -> DMatrix<f64> {
     low_rank::factor(curve.values.len(), &|i, j| curve.noise[(i, j)] + curve.structure[(i, j)], LEFT_OUT)
 }
 

@@ -10,6 +10,7 @@
 //! | `class_limits` | classes L, A, B, C and how sure they are | indices |
 //! | `bench/` | readings of a sensor on a goniometer, a monochromator, an attenuator | a sensor |
 //! | `emva/` | the figures of EMVA 1288 | frames of a camera |
+//! | `traced_field` | photons and electrons of the pixels in a flat field | a camera in a scene |
 //! | `sheet/` | all of them for one sensor, each by both routes | a sensor |
 //! | `substitution` | the light of a calibration bench, measured by a reference detector | a detector in A/W |
 //! | `campaign` | readings of a calibration bench, simulated | a sensor |
@@ -32,5 +33,6 @@ mod readings_text;
 pub mod sheet;
 pub mod spectral_mismatch;
 pub mod substitution;
+pub mod traced_field;
 
 pub use figure::Figure;

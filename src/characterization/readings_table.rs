@@ -29,9 +29,11 @@ use crate::scene::{Calibration, Diagnostic, Diagnostics};
 const MOST_TOLD: usize = 50;
 /// Wavelengths that are the same, nm: below the last digit that instruments write.
 const SAME_NM: f64 = 1e-3;
+/// Largest reading and uncertainty that are taken for ones: their squares are numbers.
+const LARGEST: f64 = 1e90;
 /// What to do about an uncertainty of zero or less.
-const NO_UNCERTAINTY: &str =
-    "give the standard uncertainty (k = 1) of the reading, above 0; without one nothing can be said about the curve";
+const NO_UNCERTAINTY: &str = "give the standard uncertainty (k = 1) of the reading, above 0; without one nothing can be said about the curve. A reading of \
+                              zero has one, too: the scatter of readings in the dark, or the last digit of the display over √12";
 
 struct Problems<'f> {
     file: &'f str,
@@ -220,7 +222,7 @@ fn placed(table: &Readable, key: Key, labels: &[&str], problems: &mut Problems) 
     let width = table.head.cells.len();
     for (r, row) in table.rows.iter().enumerate() {
         if row.cells.len() != width {
-            problems.at(row, 1, format!("{} cells where the head has {width}", row.cells.len()), "write one value for each column");
+            problems.at(row, 1, format!("{} cells where the head has {width}", row.cells.len()), on_width(row, width));
             continue;
         }
         let (Key::Label(at) | Key::Wavelength(at)) = key;
@@ -271,15 +273,38 @@ fn at_wavelength(table: &Readable, row: &Row, at: usize, labels: &[&str], proble
     }
 }
 
+/// What to do about a row with another number of cells than the head.
+fn on_width(row: &Row, width: usize) -> String {
+    match [';', '\t', ','].into_iter().find(|c| row.cells.len() == 1 && row.text.contains(*c)) {
+        Some(c) => {
+            format!("the head separates its columns by another character than this row's `{}`: use one for both", c.escape_default())
+        }
+        None if row.cells.len() > width && !row.text.contains([';', '\t']) => {
+            "write one value for each column, with decimal points: a decimal comma makes two cells of one number".to_owned()
+        }
+        None => "write one value for each column".to_owned(),
+    }
+}
+
 /// The finite number of a cell; above zero if `above` says what to do about others.
 fn number_at(table: &Readable, row: &Row, k: usize, what: &str, above: Option<&str>, problems: &mut Problems) -> Option<f64> {
     let cell = &row.cells[k];
+    let with_point = cell.text.replacen(',', ".", 1);
     let (message, help) = match (table.number(cell), above) {
-        (Some(x), None) if x.is_finite() => return Some(x),
-        (Some(x), Some(_)) if x.is_finite() && x > 0.0 => return Some(x),
-        (Some(x), Some(help)) if x.is_finite() => (format!("{what} is {x}"), help),
-        (Some(x), _) => (format!("{what} is {x}"), "every number is finite; leave the exposure out of both files"),
-        (None, _) => (format!("{what} is no number: `{}`", cell.text), "write it with a decimal point, such as 0.0123"),
+        (Some(x), above) if x.abs() <= LARGEST && (x > 0.0 || above.is_none()) => return Some(x),
+        (Some(x), _) if x.is_finite() && x.abs() > LARGEST => (
+            format!("{what} is {x:e}, which is absurd"),
+            format!("allowed: up to {LARGEST:e}; a value that stands for none is left out, row and exposure"),
+        ),
+        (Some(x), Some(help)) if x.is_finite() => (format!("{what} is {x}"), help.to_owned()),
+        (Some(x), _) => (format!("{what} is {x}"), "every number is finite; leave the exposure out of both files".to_owned()),
+        (None, _) if cell.text.contains(',') && with_point.parse::<f64>().is_ok() => {
+            (format!("{what} has a decimal comma: `{}`", cell.text), format!("write a decimal point: {with_point}"))
+        }
+        (None, _) if cell.text.is_empty() => {
+            (format!("{what} is missing"), "every exposure has a reading and an uncertainty in each channel".to_owned())
+        }
+        (None, _) => (format!("{what} is no number: `{}`", cell.text), "write it with a decimal point, such as 0.0123".to_owned()),
     };
     problems.at(row, cell.column, message, help);
     None

@@ -78,8 +78,11 @@ pub(super) fn readable(text: &str, is_exposure: impl Fn(&str) -> bool) -> Option
         }
     }
     let decided = text.lines().any(|line| line.trim() == "# decimal: comma");
+    // Beside numbers with points a comma is a mistake, told where it stands.
+    let points = rows.iter().flat_map(|row| &row.cells).any(|cell| cell.text.contains('.') && cell.text.parse::<f64>().is_ok());
     let unclear = match separator {
         ',' => None,
+        _ if points => None,
         _ if decided => None,
         _ => {
             // Lines before the table are no numbers of it; they keep their count.
@@ -87,7 +90,7 @@ pub(super) fn readable(text: &str, is_exposure: impl Fn(&str) -> bool) -> Option
             decimal_comma::unclear(&table.join("\n"), separator)
         }
     };
-    Some(Readable { head, rows, decimal_comma: separator != ',' && unclear.is_none(), unclear })
+    Some(Readable { head, rows, decimal_comma: separator != ',' && !points && unclear.is_none(), unclear })
 }
 
 /// Whether a row has units in brackets and nothing else.

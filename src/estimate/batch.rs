@@ -23,7 +23,7 @@ use crate::metrology::{Budget, BudgetRow, Replicates};
 const FIRST_POINTS: u32 = 16;
 /// Points a replicate of a reading, at least, of what varied in the trial: means of fewer are skewed, where a path may come close to a
 /// lamp, and 16 of them cover less than Student's distribution says.
-const LEAST_READING_POINTS: u32 = 64;
+const LEAST_READING_POINTS: u32 = 128;
 /// Points a replicate after which a search that has found nothing ends, with the bound of what it may have missed.
 const MOST_BLIND_POINTS: u32 = 1 << 16;
 /// The trial ends at this multiple of the target.
@@ -280,7 +280,7 @@ impl Batch<'_> {
                 let Some(found) = Replicates::evaluate(&sampled.replicates) else { continue };
                 value += found.mean;
                 let missed = sampled.missed.as_ref().map_or(0.0, |(bound, _)| bound / 3f64.sqrt());
-                budget.push(BudgetRow::type_a("", found.standard_uncertainty, found.degrees_of_freedom()));
+                budget.push(BudgetRow::type_a("", found.standard_uncertainty, found.degrees_of_freedom));
                 budget.push(BudgetRow::normal("", missed));
                 fixed.push(BudgetRow::rectangular("", sampled.spectral_residual * found.mean.abs()));
                 sizes.push(found.standard_uncertainty.hypot(missed));

@@ -9,6 +9,7 @@ use crate::math::frame::world_from_local;
 use crate::math::sample::{sample_cone, sample_cosine_cone, sample_disc};
 use crate::scene::{Pose, Scene};
 use crate::sensor::{Acceptance, Aperture, Head, Sensor, Spot};
+use crate::source::Emitter;
 
 /// A sensor in a pose, prepared for sampling.
 #[derive(Clone, Copy, Debug)]
@@ -146,7 +147,8 @@ impl<'a> Receiver<'a> {
     }
 }
 
-/// Share of an element's size within which the aperture counts as lying on it.
+/// Share of an element's size within which the aperture counts as lying on it, or of the distance to what is next if that is less: a wall of
+/// 10⁹ m is not touched a metre away.
 const TOUCHING: f64 = 1e-9;
 
 /// Where rays start.
@@ -166,8 +168,10 @@ impl Start {
         let mut start = Start { at: pose.at, mesh: NONE, triangle: NONE };
         let n = scene.elements.len().max(1) as f64;
         let middle = scene.elements.iter().map(|e| e.shape.bounding_sphere().0 / n).sum::<DVec3>();
+        let next = Next::to(scene, pose.at);
         for (e, element) in scene.elements.iter().enumerate() {
-            let slack = TOUCHING * element.shape.bounding_sphere().1 + 4.0 * f64::EPSILON * pose.at.length();
+            let size_m = element.shape.bounding_sphere().1.min(next.other_than(e));
+            let slack = TOUCHING * size_m + 4.0 * f64::EPSILON * pose.at.length();
             let Some(normal) = touching(&element.shape, pose, slack) else { continue };
             if let Shape::Mesh(m) = &element.shape {
                 if let Some(hit) = m.closest(pose.at + slack * pose.normal, -pose.normal, 2.0 * slack, None) {
@@ -180,6 +184,46 @@ impl Start {
             start.at += normal * (2.0 * slack).copysign(towards);
         }
         start
+    }
+}
+
+/// What is next to an aperture and does not touch it.
+struct Next {
+    /// The nearest element and its distance, m.
+    nearest: (usize, f64),
+    /// The distance of the next one, or of a lamp without extent, m.
+    second_m: f64,
+}
+
+impl Next {
+    fn to(scene: &Scene, at: DVec3) -> Next {
+        let mut next = Next { nearest: (usize::MAX, f64::INFINITY), second_m: f64::INFINITY };
+        for (e, element) in scene.elements.iter().enumerate() {
+            let (centre, radius_m) = element.shape.bounding_sphere();
+            let distance_m = match &element.shape {
+                Shape::Mesh(_) => (at - centre).length() - radius_m,
+                shape => shape.distance_m(at),
+            };
+            if distance_m <= TOUCHING * radius_m {
+                continue;
+            }
+            if distance_m < next.nearest.1 {
+                next = Next { nearest: (e, distance_m), second_m: next.nearest.1.min(next.second_m) };
+            } else {
+                next.second_m = next.second_m.min(distance_m);
+            }
+        }
+        let lamps = scene.sources.iter().filter_map(|source| match source.emitter {
+            Emitter::Point { at: lamp } => Some((lamp - at).length()).filter(|d| *d > 0.0),
+            _ => None,
+        });
+        next.second_m = lamps.fold(next.second_m, f64::min);
+        next
+    }
+
+    /// The smallest distance to anything but one element, m; infinite if there is nothing else.
+    fn other_than(&self, element: usize) -> f64 {
+        if element == self.nearest.0 { self.second_m } else { self.nearest.1.min(self.second_m) }
     }
 }
 

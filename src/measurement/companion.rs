@@ -83,7 +83,7 @@ pub(super) fn difference(a: Received<'_>, b: Received<'_>) -> (f64, f64) {
         let differences: [f64; REPLICATES] = std::array::from_fn(|r| x[r] - y[r]);
         if let Some(found) = Replicates::evaluate(&differences) {
             value += found.mean;
-            budget.push(BudgetRow::type_a(label, found.standard_uncertainty, found.degrees_of_freedom()));
+            budget.push(BudgetRow::type_a(label, found.standard_uncertainty, found.degrees_of_freedom));
         }
         // What both may have missed is missing in both.
         let (x, y) = (a.bounds(label), b.bounds(label));

@@ -76,13 +76,14 @@ pub(super) fn displayed(
     }
     match readout.saturation {
         Some(Saturation::Whole) => notes.push(format!(
-            "saturated: the readout is at its limit of {} V; the light would give {} {unit}",
+            "saturated: the readout is at its limit of {} V; the light would give {} {unit}. The reading is a lower bound, U that of the display",
             format_significant(diode.limit_v(), 3),
             format_significant(analogue, 4)
         )),
         Some(Saturation::Crests) => {
             notes.push(
-                "saturated: the crests of the flickering light exceed the limit; the reading leaves that out and is too high".to_owned(),
+                "saturated: the crests of the flickering light exceed the limit; the reading leaves that out and is too high, and U does not hold it"
+                    .to_owned(),
             );
         }
         None => {}

@@ -13,6 +13,7 @@ use crate::metrology::{Budget, BudgetRow, Expanded, Replicates};
 use crate::plan::{Bound, Plan};
 use crate::quantity::Measurand;
 use crate::scene::{Instrument, Layout, Scene};
+use crate::sensor::photodiode::Saturation;
 use crate::sensor::{ResponsivityKind, ResponsivityUncertainty, Sensor};
 
 /// Relative half-width within which double-precision arithmetic keeps a formula; the formulas are tested far below it.
@@ -49,7 +50,7 @@ pub struct Reading {
     pub samples: u64,
     /// Seconds of the run that went into this pose.
     pub seconds: f64,
-    /// Whether the target that was asked for is met.
+    /// Whether the target that was asked for is met. A saturated readout never meets one: its U is that of the indication, not of the light.
     pub target_met: bool,
     /// What a reader should know, such as why a reading is zero.
     pub notes: Vec<String>,
@@ -60,6 +61,12 @@ impl Reading {
     #[must_use]
     pub fn standard_uncertainty(&self) -> f64 {
         self.budget.combined_standard_uncertainty()
+    }
+
+    /// What the readout has cut off, if anything: of a whole reading the indication is a lower bound.
+    #[must_use]
+    pub fn saturation(&self) -> Option<Saturation> {
+        self.readout.as_ref().and_then(|display| display.saturation)
     }
 }
 
@@ -183,7 +190,7 @@ fn read(
         samples += sampled.samples;
         if let Some(found) = Replicates::evaluate(&sampled.replicates.map(|r| scale * r)) {
             value += found.mean;
-            budget.push(BudgetRow::type_a(sampled.label.clone(), found.standard_uncertainty, found.degrees_of_freedom()));
+            budget.push(BudgetRow::type_a(sampled.label.clone(), found.standard_uncertainty, found.degrees_of_freedom));
             if sampled.spectral_residual > 0.0 {
                 budget.push(BudgetRow::rectangular("wavelengths between the nodes", sampled.spectral_residual * found.mean.abs()));
             }
@@ -245,12 +252,12 @@ fn read(
         value,
         budget,
         computed_uncertainty,
-        readout,
         ideal: None,
         expanded,
         samples,
         seconds: pose.seconds,
-        target_met: pose.target_met,
+        target_met: pose.target_met && readout.as_ref().is_none_or(|display| display.saturation.is_none()),
+        readout,
         notes,
     }
 }

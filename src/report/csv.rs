@@ -9,7 +9,7 @@
 //! | `value`, `standard_uncertainty` | the reading and `u_c` |
 //! | `degrees_of_freedom` | effective, of `u_c`; `inf` without samples |
 //! | `coverage_factor`, `expanded_uncertainty` | `k` and `U = k u_c` of the 95 % interval |
-//! | `samples`, `target_met` | samples taken; whether `U` is as small as was asked |
+//! | `samples`, `target_met` | samples taken; whether `U` is as small as was asked; `false` where the readout is saturated |
 //! | `seed` | of the random numbers; the same in each row |
 //! | `notes` | what is to be known about the reading, joined by `; ` |
 //! | `ideal_value`, `ideal_standard_uncertainty` | what an ideal instrument would indicate; empty where the instrument is one |

@@ -11,6 +11,7 @@ use crate::measurement::{Measurement, Reading};
 use crate::metrology::rounding::{Rounded, format_significant};
 use crate::metrology::{BudgetRow, EvaluationKind};
 use crate::scene::Layout;
+use crate::sensor::photodiode::Saturation;
 
 /// Below this relative uncertainty a value is exact for a reader, and more digits would only be noise to the eye.
 const EXACT: f64 = 1e-9;
@@ -114,15 +115,21 @@ fn write_table(readings: &[&Reading], out: &mut String) -> std::fmt::Result {
         };
         let alone = readings.iter().filter(|o| o.instrument == r.instrument && o.index == r.index).count() == 1;
         let quantity = if alone { r.measurand.name().to_owned() } else { format!("{} ({})", r.measurand.name(), r.channel) };
+        let [value, interval, share] = match r.saturation() {
+            None => [value, format!("± {expanded}"), relative(r.expanded.expanded_uncertainty, r.value)],
+            // Of a saturated reading one side is known.
+            Some(Saturation::Whole) => [format!("≥ {value}"), "saturated".to_owned(), "no bound".to_owned()],
+            Some(Saturation::Crests) => [value, "saturated".to_owned(), "too high".to_owned()],
+        };
         rows.push([
             name,
             if listed { place(r) } else { String::new() },
             quantity,
             value,
             r.measurand.unit().to_owned(),
-            format!("± {expanded}"),
+            interval,
             format!("{:.2}", r.expanded.coverage_factor),
-            relative(r.expanded.expanded_uncertainty, r.value),
+            share,
             r.samples.to_string(),
         ]);
     }

@@ -14,6 +14,7 @@
 use super::channel_reader::weighted;
 use super::decode::Value;
 use super::directional_table::read_directional;
+use super::document::Kind;
 use super::reading::Reading;
 use crate::quantity::measurand::Measurand;
 use crate::sensor::{Acceptance, Aperture, Head, Spot};
@@ -73,7 +74,14 @@ fn read_spot(value: &Value, aperture: Option<Aperture>, reading: &mut Reading) -
     let field = fields.require("field_deg", "1", problems);
     let field_deg =
         field.and_then(|v| v.number_in("the measured field", "above 0° to 90°, the whole angle", |x| x > 0.0 && x <= 90.0, problems));
-    let focus_m = fields.require("focus_m", "1", problems).and_then(|v| v.length_m("`focus_m`", 1.0, problems));
+    let focus_m = fields.require("focus_m", "1", problems).and_then(|v| match v.node.kind {
+        Kind::Number(f64::INFINITY) => {
+            let help = "for a meter that is set to infinity write a distance far beyond everything in the scene, such as `focus_m: 1e6`";
+            v.problem(problems, "the plane of focus of a spot lies at a finite distance", help);
+            None
+        }
+        _ => v.length_m("`focus_m`", 1.0, problems),
+    });
     let edge = match fields.get("edge") {
         Some(edge) => edge.number_in("the edge", "0 to 1, a share of the field's radius", |x| (0.0..=1.0).contains(&x), problems),
         None => Some(0.0),

@@ -71,6 +71,24 @@ impl Beam {
     }
 }
 
+/// What the curve is taken to be.
+#[derive(Clone, Debug, Default)]
+pub enum CurveModel {
+    /// Any smooth curve.
+    #[default]
+    Smooth,
+    /// A sum of this many bell curves.
+    SumOfGaussians(usize),
+    /// A band of transmittance before a detector of this relative responsivity.
+    FilterOnDetector(Factor),
+    /// A visual pigment by its template, so dilute that its absorptance has the shape of its absorbance.
+    DilutePigment,
+    /// A visual pigment of this peak optical density.
+    Pigment(f64),
+    /// A visual pigment whose peak optical density is to be found.
+    PigmentOfUnknownDensity,
+}
+
 /// A campaign as its file says it.
 #[derive(Clone, Debug)]
 pub struct Calibration {
@@ -92,6 +110,8 @@ pub struct Calibration {
     pub scale_uncertainty: f64,
     /// The detector that measures the light, if there is one.
     pub reference: Option<Substitution>,
+    /// What the curve is taken to be.
+    pub model: CurveModel,
     /// Nodes of the curve, nm, rising.
     pub nodes_nm: Vec<f64>,
     /// Lamps for which readings with the fitted curve are propagated, by name.

@@ -21,10 +21,14 @@
 //! | `scale_uncertainty` | relative standard uncertainty of the irradiance, common to all readings; 0 |
 //! | `reference` | a detector of known responsivity that measures the light (`substitution_reader.rs`) |
 //! | `curve` | nodes of the fitted curve |
+//! | `model` | what the curve is taken to be (`curve_model_reader.rs`); any smooth curve |
 //! | `lamps` | for which the reading with the fitted curve is propagated; `["A", "D65"]` |
 
+use std::collections::BTreeSet;
+
 use super::Scene;
-use super::calibration::{Calibration, Exposure, Noise};
+use super::calibration::{Calibration, CurveModel, Exposure, Noise};
+use super::curve_model_reader::read_curve_model;
 use super::decode::{Fields, Value};
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::{Document, Kind};
@@ -38,7 +42,7 @@ use super::substitution_reader::read_reference;
 use crate::naming::suggestion;
 use crate::spectrum::{Density, library};
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "title",
     "bench",
     "sensor",
@@ -50,6 +54,7 @@ const KEYS: [&str; 12] = [
     "scale_uncertainty",
     "reference",
     "curve",
+    "model",
     "lamps",
 ];
 /// Most nodes of a curve: its covariance has the square of that.
@@ -94,6 +99,8 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Calibrati
     let noise = fields.require("noise", "(relative: 0.002)", &mut reading.problems).and_then(|v| read_noise(&v, reading));
     let nodes = fields.require("curve", "(from_nm: 380, to_nm: 780, step_nm: 5)", &mut reading.problems);
     let nodes_nm = nodes.as_ref().and_then(|v| read_nodes(v, reading));
+    let range_nm = nodes_nm.as_ref().map_or((0.0, f64::INFINITY), |nodes| (nodes[0], nodes[nodes.len() - 1]));
+    let model = fields.get("model").map_or(Some(CurveModel::Smooth), |v| read_curve_model(&v, range_nm, reading));
     let number = |key: &str, otherwise: f64, allowed: &str, holds: fn(f64) -> bool, reading: &mut Reading| match fields.get(key) {
         None => Some(otherwise),
         Some(given) => given.number_in(&format!("`{key}`"), allowed, holds, &mut reading.problems),
@@ -123,6 +130,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Calibrati
         repeats: repeats? as u32,
         scale_uncertainty: scale?,
         reference: reference?,
+        model: model?,
         nodes_nm,
         lamps: lamps?,
         hash: reading.hash,
@@ -182,13 +190,32 @@ fn read_list(fields: &Fields, key: &str, bench: &Bench, reading: &mut Reading) -
     let value = fields.require(key, example, &mut reading.problems)?;
     let items = value.list(&format!("`{key}`"), &mut reading.problems)?;
     let found: Vec<Option<Vec<Exposure>>> = items.iter().map(|item| read_exposures(item, bench, reading)).collect();
-    let found: Vec<Exposure> = found.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect();
+    let found = found.into_iter().collect::<Option<Vec<Vec<Exposure>>>>()?;
+    check_labels(&items, &found, reading)?;
+    let found: Vec<Exposure> = found.into_iter().flatten().collect();
     if found.is_empty() || found.len() > MOST_EXPOSURES {
         let message = format!("`{key}` holds {} exposures", found.len());
         value.problem(&mut reading.problems, message, format!("allowed: 1 to {MOST_EXPOSURES}; for example `{key}: {example}`"));
         return None;
     }
     Some(found)
+}
+
+/// Readings are found by the labels of their exposures, so each has one of its own.
+fn check_labels(items: &[Value], found: &[Vec<Exposure>], reading: &mut Reading) -> Option<()> {
+    let mut seen: BTreeSet<&str> = BTreeSet::new();
+    let mut all_differ = Some(());
+    for (item, exposures) in items.iter().zip(found) {
+        let again: Vec<&str> = exposures.iter().map(|e| e.label.as_str()).filter(|label| !seen.insert(label)).collect();
+        if let [first, ..] = again.as_slice() {
+            let more = if again.len() > 1 { format!(" and {} others are", again.len() - 1) } else { " is".to_owned() };
+            let message = format!("the exposure \"{first}\"{more} there twice");
+            let help = "give each a name of its own: `labels: [\"first\", \"second\"]`; for readings that are averaged write `repeats`";
+            item.problem_at(&item.name_span(), &mut reading.problems, message, help);
+            all_differ = None;
+        }
+    }
+    all_differ
 }
 
 pub(super) fn read_noise(value: &Value, reading: &mut Reading) -> Option<Noise> {

@@ -29,20 +29,23 @@ use std::sync::Arc;
 
 use super::Pose;
 use super::camera::{PlacedCamera, Region};
-use super::decode::{Fields, Value};
+use super::decode::{Fields, Value, readable};
 use super::directional_table::read_directional;
 use super::document::{Body, Kind};
 use super::factor_range::{is_zero, outside_of};
 use super::pixel_reader::read_pixel;
 use super::placement::read_facing;
 use super::reading::Reading;
-use super::responsivity_reader::read_curve;
+use super::responsivity_reader::{other_unit, read_curve};
 use super::spectrum_reader::read_factor;
 use crate::math::DVec3;
 use crate::naming::suggestion;
 use crate::sensor::ResponsivityKind;
 use crate::sensor::camera::{Camera, ColourChannel, Lens, MOST_PIXELS, Mosaic};
 use crate::spectrum::{Factor, Outside};
+
+/// The pupil of a lens in air is at most twice as wide as the focal length: the sine of the angle at the image is at most 1.
+const LENSES_IN_AIR: &str = "0.5, the limit in air, to 1e6, such as 2.8";
 
 const KEYS: [&str; 14] = [
     "title",
@@ -175,7 +178,7 @@ fn read_lens(value: &Value, reading: &mut Reading) -> Option<Lens> {
     let focal_length_m = fields.require("focal_length_mm", "16", problems).and_then(|v| v.length_m("`focal_length_mm`", 1e-3, problems));
     let f_number = fields
         .require("f_number", "4", problems)
-        .and_then(|v| v.number_in("the f-number", "above 0, such as 2.8", |x| x > 0.0 && x <= 1e6, problems));
+        .and_then(|v| v.number_in("the f-number", LENSES_IN_AIR, |x| (0.5..=1e6).contains(&x), problems));
     let focus = fields.require("focus_m", "1.2", problems)?;
     let focus_m = match focus.node.kind {
         Kind::Number(f64::INFINITY) => Some(f64::INFINITY),
@@ -198,7 +201,7 @@ fn read_share(value: &Value, what: &str, reading: &mut Reading) -> Option<Factor
     if let Some((nm, found)) = outside_of(&factor, 0.0, 1.0) {
         let place = if matches!(factor, Factor::Constant(_)) { String::new() } else { format!(" at {nm} nm") };
         let help = "allowed: 0 to 1 at every wavelength (85 % is written 0.85); `Scaled(0.5, …)` makes a relative curve smaller";
-        value.problem(&mut reading.problems, format!("{what} is {found}{place}"), help);
+        value.problem(&mut reading.problems, format!("{what} is {}{place}", readable(found)), help);
         return None;
     }
     if is_zero(&factor) {
@@ -220,6 +223,14 @@ fn read_efficiency(value: &Value, reading: &mut Reading) -> Option<Factor> {
             &mut reading.problems,
             "the file says that its values are in A/W, but a quantum efficiency is in electrons per photon",
             "multiply them by h c/(e n λ), 1239.8/λ for λ in nm, or correct `# unit:` in the file",
+        );
+        return None;
+    }
+    if let Some(unit) = other_unit(value, reading) {
+        value.problem(
+            &mut reading.problems,
+            format!("the file says that its values are in {unit}, but a quantum efficiency is in electrons per photon"),
+            "give electrons per photon, 0 to 1, or correct `# unit:` in the file",
         );
         return None;
     }
@@ -279,7 +290,17 @@ fn read_channels(fields: &Fields, reading: &mut Reading) -> Option<Vec<ColourCha
     (channels.len() == count).then_some(channels)
 }
 
+/// A mosaic in which every channel has a pixel.
 fn read_mosaic(value: &Value, channels: &[ColourChannel], reading: &mut Reading) -> Option<Mosaic> {
+    let mosaic = read_pattern(value, channels, reading)?;
+    for (_, channel) in channels.iter().enumerate().filter(|(index, _)| !mosaic.has(*index)) {
+        let found = format!("no pixel is behind the filter of the channel \"{}\": the mosaic does not name it", channel.name);
+        value.problem(&mut reading.problems, found, "name it in the mosaic, or take it out of `channels`");
+    }
+    Some(mosaic)
+}
+
+fn read_pattern(value: &Value, channels: &[ColourChannel], reading: &mut Reading) -> Option<Mosaic> {
     let kind = value.variant("a mosaic", &["None", "Bayer", "Pattern"], &mut reading.problems)?;
     if kind == "None" {
         value.without_brackets(&mut reading.problems);

@@ -27,7 +27,7 @@
 
 use super::acceptance_reader::words_of_head;
 use super::adjustment::{System, read_luminous_scale, read_optional_adjustment};
-use super::decode::{Fields, Value};
+use super::decode::{Fields, Value, readable};
 use super::document::{Body, Kind};
 use super::factor_range::{LARGEST, outside_of};
 use super::reading::Reading;
@@ -102,9 +102,14 @@ pub(super) fn read_channel(
     let ideal = read_ideal(&fields, &found, reads.name(), reading);
     let given = match given {
         Some(given) => given?,
-        None => Responsivity { curve: ideal.as_ref()?.curve.clone(), kind: ResponsivityKind::Relative, uncertainty: Vec::new() },
+        None => Responsivity {
+            curve: ideal.as_ref()?.curve.clone(),
+            kind: ResponsivityKind::Relative,
+            uncertainty: Vec::new(),
+            other_unit: None,
+        },
     };
-    unit_serves(&reads, given.kind, &fields, reading)?;
+    unit_serves(&reads, &given, &fields, reading)?;
     let mut channel = Channel::new(name?, given.curve, found.reads, found.scale);
     channel.kind = given.kind;
     channel.responsivity_uncertainty = given.uncertainty;
@@ -135,20 +140,31 @@ pub(super) fn read_channel(
 }
 
 /// Whether the unit of a responsivity goes with the quantity.
-fn unit_serves(reads: &Value, kind: ResponsivityKind, fields: &Fields, reading: &mut Reading) -> Option<()> {
+fn unit_serves(reads: &Value, given: &Responsivity, fields: &Fields, reading: &mut Reading) -> Option<()> {
     let quantity = reads.name();
-    let problem = match (kind.is_absolute(), quantity) {
+    let unit = given.other_unit.as_deref().unwrap_or("A/W");
+    let problem = match (given.kind.is_absolute() || given.other_unit.is_some(), quantity) {
+        (true, "Photocurrent") if !given.kind.is_absolute() => Some((
+            format!("a photocurrent needs a responsivity in A/W, and the file says that its values are in {unit}"),
+            "correct `# unit:` in the file, or write `reads: Signal(unit: \"V\", per_watt: 1)` for another signal".to_owned(),
+        )),
         (false, "Photocurrent") => Some((
             "a photocurrent needs a responsivity with a unit".to_owned(),
             "write `responsivity: AmperesPerWatt(…)`, or `QuantumEfficiency(…)` for electrons per photon; a curve file may say `# unit: A/W`"
                 .to_owned(),
         )),
         (true, "Irradiance" | "RadiantFlux" | "Radiance" | "PhotonIrradiance") => Some((
-            format!("a responsivity in A/W gives a current, not what `{quantity}` is"),
-            "write `Relative(…)` if only its shape counts, `reads: Photocurrent`, or `reads: Signal(unit: \"V\", per_watt: 1)`".to_owned(),
+            match &given.other_unit {
+                None => format!("a responsivity in A/W gives a current, not what `{quantity}` is"),
+                Some(unit) => format!("the file says that its values are in {unit}, which gives another signal than `{quantity}`"),
+            },
+            match &given.other_unit {
+                None => "write `Relative(…)` if only its shape counts, `reads: Photocurrent`, or `reads: Signal(unit: \"V\", per_watt: 1)`".to_owned(),
+                Some(_) => "write `Relative(…)` if only its shape counts, or `reads: Signal(unit: \"V\", per_watt: 1)`".to_owned(),
+            },
         )),
         (true, _) if matches!(&reads.node.kind, Kind::Struct { body: Body::None, .. }) && quantity != "Photocurrent" => Some((
-            format!("with a responsivity in A/W, `{quantity}` needs an adjustment"),
+            format!("with a responsivity in {unit}, `{quantity}` needs an adjustment"),
             format!("write `{quantity}(adjusted_with: \"A\")`, or `Relative(…)` if only the shape of the curve counts"),
         )),
         _ => None,
@@ -168,7 +184,11 @@ fn read_ideal(fields: &Fields, found: &Indication, quantity: &str, reading: &mut
     }
     let curve = read_factor(&given, Outside::Zero, reading)?;
     if let Some((nm, value)) = outside_of(&curve, 0.0, LARGEST) {
-        given.problem(&mut reading.problems, format!("the weighting is {value} at {nm} nm"), "allowed: 0 and above at every wavelength");
+        given.problem(
+            &mut reading.problems,
+            format!("the weighting is {} at {nm} nm", readable(value)),
+            "allowed: 0 and above at every wavelength",
+        );
         return None;
     }
     Some(Weighting { curve, scale: found.scale })

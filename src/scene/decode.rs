@@ -14,6 +14,11 @@ pub(super) const LARGEST_M: f64 = 1e33;
 /// See [`LARGEST_M`].
 pub(super) const SMALLEST_M: f64 = 1e-33;
 
+/// A number for a message: with an exponent where it would have many zeros.
+pub(super) fn readable(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() || (1e-5..1e16).contains(&x.abs()) { format!("{x}") } else { format!("{x:e}") }
+}
+
 /// A value, the document it belongs to, and its path in it.
 #[derive(Clone, Debug)]
 pub(super) struct Value<'d> {
@@ -64,7 +69,7 @@ impl<'d> Value<'d> {
     /// What the value is, for messages.
     pub(super) fn described(&self) -> String {
         match &self.node.kind {
-            Kind::Number(x) => format!("the number {x}"),
+            Kind::Number(x) => format!("the number {}", readable(*x)),
             Kind::Text(text) => format!("the text \"{}\"", text.chars().take(40).collect::<String>()),
             Kind::Bool(x) => format!("`{x}`"),
             Kind::List(_) => "a list […]".into(),
@@ -160,9 +165,7 @@ impl<'d> Value<'d> {
         if holds(x) {
             return Some(x);
         }
-        let readable = x == 0.0 || (1e-5..1e16).contains(&x.abs());
-        let found = if readable { format!("{what} is {x}") } else { format!("{what} is {x:e}") };
-        self.problem(problems, found, format!("allowed: {allowed}"));
+        self.problem(problems, format!("{what} is {}", readable(x)), format!("allowed: {allowed}"));
         None
     }
 

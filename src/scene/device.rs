@@ -18,12 +18,25 @@ pub enum Device {
     Camera(Box<Camera>),
 }
 
+/// The name that a file begins with, such as `Scene`, `Sensor` or `Pixel`; `None` if it cannot be read or holds nothing of that form.
+#[must_use]
+pub fn held_by(path: &str, files: &dyn Files) -> Option<String> {
+    let path = normalised(path);
+    let mut reading = Reading::new(files, &path, root_of(&path));
+    let document = reading.first_document(&path, "file")?;
+    Some(Value::root(&document).name().to_owned()).filter(|name| !name.is_empty())
+}
+
 /// Reads a file that holds `Sensor(…)` or `Camera(…)` and the files that it mentions, as [`sensor_from_file`] does.
 ///
 /// # Errors
 /// Every problem of every file, at least one.
 pub fn device_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Result<Device, Diagnostics> {
-    read_file(path, files, root, |value, path, reading| match value.name() {
+    read_file(path, files, root, read_device)
+}
+
+fn read_device(value: &Value, path: &str, reading: &mut Reading) -> Option<Device> {
+    match value.name() {
         "Camera" => read_camera_body(value, path, reading).map(|camera| Device::Camera(Box::new(camera))),
         "Sensor" => read_sensor_body(value, path, reading).map(|sensor| Device::Sensor(Box::new(sensor))),
         _ => {
@@ -36,6 +49,29 @@ pub fn device_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Re
             );
             None
         }
+    }
+}
+
+/// Reads a file as [`device_from_file`] for a data sheet: a camera needs its pixel there.
+///
+/// # Errors
+/// Every problem of every file, at least one.
+pub fn characterised_from_file(path: &str, files: &dyn Files, root: Option<&str>) -> Result<Device, Diagnostics> {
+    read_file(path, files, root, |value, path, reading| {
+        if value.name() != "Camera" {
+            return read_device(value, path, reading);
+        }
+        let camera = read_camera_body(value, path, reading)?;
+        if camera.pixel.is_none() {
+            value.problem_at(
+                &value.name_span(),
+                &mut reading.problems,
+                "the camera has no `pixel`, so it gives expected electrons and no frames to measure",
+                "add `pixel: Pixel(gain_dn_per_e: 0.35, full_well_e: 10500, bits: 12, black_dn: 64, read_noise_e: 3, dark_current_e_s: 5, \
+                 dsnu_e: 1.5, prnu: 0.006)`",
+            );
+        }
+        Some(Device::Camera(Box::new(camera)))
     })
 }
 

@@ -44,7 +44,7 @@ pub(super) fn read_exposures(value: &Value, bench: &Bench, reading: &mut Reading
             let found: Vec<Option<(String, Density)>> = items.iter().map(|item| read_normalised(item, bench, reading)).collect();
             let found = found.into_iter().collect::<Option<Vec<_>>>()?;
             let exposures = found.into_iter().map(|(label, emitted)| Exposure { label, emitted, patch: None, pose: 0 }).collect();
-            common?.applied(exposures)
+            common?.applied(exposures, &fields, reading)
         }
         "Filters" => {
             let fields = value.fields("`Filters`", &["lamp", "filters", "labels", "pose", "attenuator"], &mut reading.problems)?;
@@ -61,7 +61,7 @@ pub(super) fn read_exposures(value: &Value, bench: &Bench, reading: &mut Reading
                 patch: None,
                 pose: 0,
             });
-            common?.applied(exposures.collect())
+            common?.applied(exposures.collect(), &fields, reading)
         }
         _ => read_chart(value, bench, reading),
     }
@@ -115,7 +115,7 @@ fn read_monochromator(value: &Value, bench: &Bench, reading: &mut Reading) -> Op
         let emitted = emitted.map_err(|e| value.problem(&mut reading.problems, e.to_string(), "")).ok()?;
         exposures.push(Exposure { label: format!("{} nm", rounded(nm)), emitted, patch: None, pose: 0 });
     }
-    common?.applied(exposures)
+    common?.applied(exposures, &fields, reading)
 }
 
 /// A wavelength without the rounding of sums of steps.
@@ -159,7 +159,7 @@ fn read_chart(value: &Value, bench: &Bench, reading: &mut Reading) -> Option<Vec
             exposures.push(Exposure { label, emitted: lamp.clone(), patch: Some(patch.clone()), pose: 0 });
         }
     }
-    common?.applied(exposures)
+    common?.applied(exposures, &fields, reading)
 }
 
 fn read_patches(value: &Value, reading: &mut Reading) -> Option<Vec<(String, Factor)>> {
@@ -251,7 +251,14 @@ impl Common {
         Some(Common { pose: pose? as usize, attenuator: attenuator?, labels: labels? })
     }
 
-    fn applied(self, mut exposures: Vec<Exposure>) -> Option<Vec<Exposure>> {
+    fn applied(self, mut exposures: Vec<Exposure>, fields: &Fields, reading: &mut Reading) -> Option<Vec<Exposure>> {
+        if let (Some(labels), Some(given)) = (&self.labels, fields.get("labels"))
+            && labels.len() != exposures.len()
+        {
+            let message = format!("there are {} labels for {} exposures", labels.len(), exposures.len());
+            given.problem(&mut reading.problems, message, "give one for each, in their order, or leave `labels` out");
+            return None;
+        }
         for (i, exposure) in exposures.iter_mut().enumerate() {
             exposure.pose = self.pose;
             if let Some(label) = self.labels.as_ref().and_then(|labels| labels.get(i)) {

@@ -18,7 +18,7 @@
 //! | `pixel_reader` | camera pixels |
 //! | `responsivity_reader`, `readout_reader` | their curves with units and uncertainties, their electronics |
 //! | `reader` | the scene as a whole |
-//! | `calibration`, `calibration_reader`, `exposure_reader`, `substitution_reader` | calibration files: a bench and what is put in front of the sensor |
+//! | `calibration`, `calibration_reader`, `exposure_reader`, `curve_model_reader`, `substitution_reader` | calibration files: a bench and what is put in front of the sensor |
 //! | `checks` | what only the scene as a whole can show |
 
 mod acceptance_reader;
@@ -29,6 +29,7 @@ pub mod camera;
 mod camera_reader;
 mod channel_reader;
 mod checks;
+mod curve_model_reader;
 mod decode;
 mod device;
 pub mod diagnostic;
@@ -61,10 +62,10 @@ mod syntax;
 #[cfg(test)]
 mod tests;
 
-pub use calibration::{Beam, Calibration, Exposure, Noise, Substitution};
+pub use calibration::{Beam, Calibration, CurveModel, Exposure, Noise, Substitution};
 pub use calibration_reader::read_calibration;
 pub use camera::{PlacedCamera, Region};
-pub use device::{Device, device_from_file, sensor_from_file};
+pub use device::{Device, characterised_from_file, device_from_file, held_by, sensor_from_file};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use files::{FileProblem, Files, MemoryFiles};
 pub use instrument::{Instrument, Layout, Pose};

@@ -38,6 +38,15 @@ const KEYS: [&str; 14] = [
     "current_a_per_unit",
 ];
 
+/// What electronics can be, whatever the unit.
+const PHYSICAL: &str = "above 0, up to 1e30";
+/// Largest dark current, A.
+const MOST_DARK_A: f64 = 1.0;
+
+fn is_physical(x: f64) -> bool {
+    (1e-30..=1e30).contains(&x)
+}
+
 /// Reads the electronics of a sensor.
 pub(super) fn read_readout(value: &Value, reading: &mut Reading) -> Option<Photodiode> {
     value.variant("a readout", &["Photodiode"], &mut reading.problems)?;
@@ -47,7 +56,7 @@ pub(super) fn read_readout(value: &Value, reading: &mut Reading) -> Option<Photo
     let ranges = read_ranges(value, &fields, problems);
     let bandwidth = read_bandwidth(value, &fields, problems);
     let above_zero =
-        |key: &str, what: &str, problems: &mut Problems| fields.get(key).and_then(|v| v.number_in(what, "above 0", |x| x > 0.0, problems));
+        |key: &str, what: &str, problems: &mut Problems| fields.get(key).and_then(|v| v.number_in(what, PHYSICAL, is_physical, problems));
     let mut diode = Photodiode::new(Vec::new(), Bandwidth::Hertz(1.0));
     if let Some(v) = fields.get("temperature_c") {
         let found = v.number_in("the temperature", "-200 °C to 200 °C", |c| (-200.0..=200.0).contains(&c), problems);
@@ -82,6 +91,13 @@ pub(super) fn read_readout(value: &Value, reading: &mut Reading) -> Option<Photo
     if let (Some(v), Some(2..), false) = (fields.get("ranges"), ranges.as_ref().map(Vec::len), bounded) {
         v.problem(problems, "nothing says when to change the range", "add the largest voltage, such as `saturation_v: 5`, or an `adc`");
     }
+    if let (Some(v), Some(dark)) = (fields.get("dark"), &diode.dark) {
+        let temperatures = [Some(diode.temperature_c), dark.zeroed_at_c];
+        for temperature_c in temperatures.into_iter().flatten().filter(|c| dark.at_a(*c) > MOST_DARK_A || dark.at_a(*c).is_nan()) {
+            let found = format!("at {temperature_c} °C the dark current would be {:.3e} A", dark.at_a(temperature_c));
+            v.problem(problems, found, "allowed: up to 1 A; `doubling_k` is the rise of the temperature that doubles it, such as 10");
+        }
+    }
     if problems.count() > before {
         return None;
     }
@@ -89,7 +105,7 @@ pub(super) fn read_readout(value: &Value, reading: &mut Reading) -> Option<Photo
 }
 
 fn required(fields: &Fields, key: &str, example: &str, what: &str, problems: &mut Problems) -> Option<f64> {
-    fields.require(key, example, problems).and_then(|v| v.number_in(what, "above 0", |x| x > 0.0, problems))
+    fields.require(key, example, problems).and_then(|v| v.number_in(what, PHYSICAL, is_physical, problems))
 }
 
 fn read_ranges(value: &Value, fields: &Fields, problems: &mut Problems) -> Option<Vec<Range>> {
@@ -104,7 +120,7 @@ fn read_ranges(value: &Value, fields: &Fields, problems: &mut Problems) -> Optio
             None
         }
         (Some(v), None) => {
-            let feedback_ohm = v.number_in("the gain", "above 0 V/A", |x| x > 0.0, problems)?;
+            let feedback_ohm = v.number_in("the gain", "above 0, up to 1e30 V/A", is_physical, problems)?;
             Some(vec![Range { feedback_ohm, error: 0.0 }])
         }
         (None, Some(list)) => {
@@ -138,8 +154,10 @@ fn read_bandwidth(value: &Value, fields: &Fields, problems: &mut Problems) -> Op
             value.problem_at(&span, problems, "both `bandwidth_hz` and `integration_s` are given", help);
             None
         }
-        (Some(v), None) => v.number_in("the bandwidth", "above 0 Hz", |x| x > 0.0, problems).map(Bandwidth::Hertz),
-        (None, Some(v)) => v.number_in("the time of integration", "above 0 s", |x| x > 0.0, problems).map(Bandwidth::Integration),
+        (Some(v), None) => v.number_in("the bandwidth", "above 0, up to 1e30 Hz", is_physical, problems).map(Bandwidth::Hertz),
+        (None, Some(v)) => {
+            v.number_in("the time of integration", "above 0, up to 1e30 s", is_physical, problems).map(Bandwidth::Integration)
+        }
         (None, None) => {
             fields.require("integration_s", "0.1", problems);
             None
@@ -150,7 +168,7 @@ fn read_bandwidth(value: &Value, fields: &Fields, problems: &mut Problems) -> Op
 fn read_dark(value: &Value, problems: &mut Problems) -> Option<DarkCurrent> {
     let f = value.fields("`dark`", &["current_a", "at_c", "doubling_k", "zeroed_at_c"], problems)?;
     let current = f.require("current_a", "1e-11", problems);
-    let current_a = current.and_then(|v| v.number_in("the dark current", "0 A and above", |x| x >= 0.0, problems));
+    let current_a = current.and_then(|v| v.number_in("the dark current", "0 to 1 A", |x| (0.0..=MOST_DARK_A).contains(&x), problems));
     let reference_temperature_c = f.require("at_c", "25", problems).and_then(|v| v.number(problems));
     let doubling_k = required(&f, "doubling_k", "10", "the rise that doubles the dark current", problems);
     let zeroed_at_c = match f.get("zeroed_at_c") {

@@ -2,7 +2,7 @@
 //!
 //! | `responsivity:` | kind |
 //! |---|---|
-//! | `"V"`, `0.85`, `"curve.csv"`, any factor | relative; what a file says in `# unit:` if it says A/W, mA/W or electrons per photon |
+//! | `"V"`, `0.85`, `"curve.csv"`, any factor | relative; what a file says in `# unit:` if it says A/W, mA/W or electrons per photon; with another unit, such as V/W, for `Signal` and adjusted quantities alone |
 //! | `Relative(f)` | relative, whatever the file says |
 //! | `AmperesPerWatt(f)` | A/W |
 //! | `QuantumEfficiency(f)` | electrons per photon, 0 to 1: `s = η e n λ/(h c)` |
@@ -11,7 +11,7 @@
 //!
 //! The third column of a file is a standard uncertainty of each row; it is taken to have one cause for all rows.
 
-use super::decode::Value;
+use super::decode::{Value, readable};
 use super::document::{Body, Kind};
 use super::factor_range::{LARGEST, is_zero, outside_of};
 use super::reading::Reading;
@@ -20,7 +20,7 @@ use crate::metrology::rounding::format_significant;
 use crate::naming::nearest;
 use crate::sensor::channel::quantum_limit_a_w;
 use crate::sensor::{ResponsivityKind, ResponsivityUncertainty};
-use crate::spectrum::file::Meaning;
+use crate::spectrum::file::{CurveFile, Meaning};
 use crate::spectrum::{Factor, Outside, Table};
 
 const FORMS: [&str; 5] = ["Relative", "AmperesPerWatt", "QuantumEfficiency", "Chain", "Bandpass"];
@@ -33,6 +33,8 @@ pub(super) struct Responsivity {
     pub(super) kind: ResponsivityKind,
     /// One for each cause.
     pub(super) uncertainty: Vec<ResponsivityUncertainty>,
+    /// The unit that the file states, where it is none of those that have a kind, such as V/W; the sensor does not say `Relative`.
+    pub(super) other_unit: Option<String>,
 }
 
 impl Responsivity {
@@ -47,7 +49,7 @@ impl Responsivity {
             list.iter().map(one).collect()
         };
         let uncertainty = [times(&self.uncertainty, &part.curve), times(&part.uncertainty, &self.curve)].concat();
-        Responsivity { curve: product(&self.curve, &part.curve), kind: self.kind, uncertainty }
+        Responsivity { curve: product(&self.curve, &part.curve), kind: self.kind, uncertainty, other_unit: self.other_unit }
     }
 }
 
@@ -77,13 +79,14 @@ fn read_form(value: &Value, reading: &mut Reading) -> Option<Responsivity> {
         }
         let (curve, stated, uncertainty) = read_curve(value, reading)?;
         let (scale, kind) = stated.unwrap_or((1.0, ResponsivityKind::Relative));
-        return finished(value, curve, kind, scale, uncertainty, reading);
+        let found = finished(value, curve, kind, scale, uncertainty, reading)?;
+        return Some(Responsivity { other_unit: other_unit(value, reading), ..found });
     }
     match value.name() {
         "Chain" => read_chain(value, reading),
         "Bandpass" => {
             let curve = read_bandpass(value, reading)?;
-            Some(Responsivity { curve, kind: ResponsivityKind::Relative, uncertainty: Vec::new() })
+            Some(Responsivity { curve, kind: ResponsivityKind::Relative, uncertainty: Vec::new(), other_unit: None })
         }
         name => {
             let form = format!("{name}(\"curve.csv\")");
@@ -119,17 +122,31 @@ pub(super) type Stated = Option<(f64, ResponsivityKind)>;
 /// A factor, what its file says about its unit, and the uncertainties of its rows.
 pub(super) fn read_curve(value: &Value, reading: &mut Reading) -> Option<(Factor, Stated, Option<Factor>)> {
     let curve = read_factor(value, Outside::Zero, reading)?;
-    let file = match &value.node.kind {
+    let Some(file) = file_of(value, reading) else { return Some((curve, None, None)) };
+    let rows = file.standard_uncertainty.as_ref().map(|u| file.table.wavelengths_nm().iter().copied().zip(u.iter().copied()));
+    let uncertainty = rows.and_then(|rows| Table::from_rows(&rows.collect::<Vec<_>>(), Outside::Zero).ok()).map(Factor::Table);
+    Some((curve, file.unit.as_deref().and_then(kind_of_unit), uncertainty))
+}
+
+/// The file that a curve was read from.
+fn file_of(value: &Value, reading: &mut Reading) -> Option<CurveFile> {
+    match &value.node.kind {
         Kind::Text(name) if is_file(name) => {
             let path = reading.path(value, name)?;
             reading.curves.get(&(path, Meaning::Factor)).cloned().flatten()
         }
         _ => None,
-    };
-    let Some(file) = file else { return Some((curve, None, None)) };
-    let rows = file.standard_uncertainty.as_ref().map(|u| file.table.wavelengths_nm().iter().copied().zip(u.iter().copied()));
-    let uncertainty = rows.and_then(|rows| Table::from_rows(&rows.collect::<Vec<_>>(), Outside::Zero).ok()).map(Factor::Table);
-    Some((curve, file.unit.as_deref().and_then(kind_of_unit), uncertainty))
+    }
+}
+
+/// The unit that the file of a curve states, if that is neither a number's nor one that has a kind.
+pub(super) fn other_unit(value: &Value, reading: &mut Reading) -> Option<String> {
+    let unit = file_of(value, reading)?.unit?;
+    let plain = unit.trim().to_lowercase();
+    let number = matches!(plain.as_str(), "" | "1" | "-" | "–" | "none" | "a.u." | "au")
+        || ["1 (", "%", "per cent", "percent"].iter().any(|start| plain.starts_with(start))
+        || ["relative", "arbitrary", "arb", "normal", "dimensionless", "unitless"].iter().any(|word| plain.contains(word));
+    if number || kind_of_unit(&unit).is_some() { None } else { Some(unit) }
 }
 
 /// The kind that a unit says, with the scale to A/W or to electrons per photon.
@@ -162,12 +179,16 @@ fn finished(
             false => ("responsivity", format!("0 to {LARGEST:e} at every wavelength")),
         };
         let percent = if quantum && found > 1.5 && found <= 100.0 { "; percent are written `Scaled(0.01, …)`" } else { "" };
-        value.problem(&mut reading.problems, format!("the {what} is {found} at {nm} nm"), format!("allowed: {allowed}{percent}"));
+        value.problem(
+            &mut reading.problems,
+            format!("the {what} is {} at {nm} nm", readable(found)),
+            format!("allowed: {allowed}{percent}"),
+        );
         return None;
     }
     let to_a_w = |factor: Factor| if quantum { Factor::Product(vec![factor, quantum_limit_a_w()]) } else { factor };
     let uncertainty = uncertainty.map(|u| ResponsivityUncertainty::Curve(to_a_w(u))).into_iter().collect();
-    Some(Responsivity { curve: to_a_w(curve), kind, uncertainty })
+    Some(Responsivity { curve: to_a_w(curve), kind, uncertainty, other_unit: None })
 }
 
 /// More than one electron a photon is possible with gain, and more often a slip.
@@ -220,12 +241,12 @@ fn read_transmittance(value: &Value, key: &str, reading: &mut Reading) -> Option
         return None;
     }
     if let Some((nm, found)) = outside_of(&curve, 0.0, 1.0) {
-        let message = format!("the transmittance of the {key} is {found} at {nm} nm");
+        let message = format!("the transmittance of the {key} is {} at {nm} nm", readable(found));
         value.problem(&mut reading.problems, message, "allowed: 0 to 1 at every wavelength");
         return None;
     }
     let uncertainty = uncertainty.map(ResponsivityUncertainty::Curve).into_iter().collect();
-    Some(Responsivity { curve, kind: ResponsivityKind::Relative, uncertainty })
+    Some(Responsivity { curve, kind: ResponsivityKind::Relative, uncertainty, other_unit: None })
 }
 
 fn read_bandpass(value: &Value, reading: &mut Reading) -> Option<Factor> {

@@ -23,8 +23,13 @@ pub(crate) fn at(v: DVec3) -> String {
 
 /// Measures a scene.
 pub(crate) fn measured(text: &str, stop: &Stop, seed: u64) -> Measurement {
+    measured_by(text, &PlanOptions::default(), stop, seed)
+}
+
+/// Measures a scene by a plan of some kind.
+pub(crate) fn measured_by(text: &str, options: &PlanOptions, stop: &Stop, seed: u64) -> Measurement {
     let scene = scene_from_text(text).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
-    let plan = Plan::new(&scene, &PlanOptions::default()).unwrap();
+    let plan = Plan::new(&scene, options).unwrap();
     measure(&scene, &plan, stop, seed, &Watch { now: &|| 0.0, progress: &|_| {} }).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 
-use crate::bench::{EXACT, METER, apart, at, exact, measured, room, samples};
+use crate::bench::{EXACT, METER, apart, at, exact, measured, measured_by, room, samples};
 use etendue::math::DVec3;
+use etendue::plan::PlanOptions;
 
 fn sources_without_obstacle(s: f64) -> String {
     let p = |x: f64, y: f64, z: f64| at(DVec3::new(x * s, y * s, z * s));
@@ -52,6 +53,33 @@ proptest! {
             prop_assert!(one.samples > 0 && apart(scaled.value, one.value) < EXACT, "{} {}", one.value, scaled.value);
             prop_assert!(apart(scaled.standard_uncertainty(), one.standard_uncertainty()) < 1e-6);
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(24) })]
+
+    /// A wall is in the way however large it is: half-way between a meter and a lamp, 1 m from each.
+    #[test]
+    fn nothing_is_seen_through_a_wall_of_any_size(exponent in 0.5..12.0_f64, kind in 0..3_usize, lamp in 0..2_usize, naive in proptest::bool::ANY) {
+        let r = 10f64.powf(exponent);
+        let wall = [
+            format!("shape: Disc({r:e}), at: (0, 0, 1), facing: (0, 0, -1)"),
+            format!("shape: Rectangle({:e}, {:e}), at: (0, 0, 1), facing: (0, 0, -1)", 2.0 * r, 3.0 * r),
+            format!("shape: Sphere({r:e}), at: (0, 0, {:e})", 1.0 + r),
+        ];
+        let lamp = [
+            "shape: Point, at: (0, 0, 2), strength: WattsPerSteradian(1)",
+            "shape: Disc(0.1), at: (0, 0, 2), facing: (0, 0, -1), strength: Radiance(30)",
+        ][lamp];
+        let text = format!(
+            r#"Scene(surfaces: {{ "black": Black }}, objects: [(name: "wall", {}, surface: "black")],
+                sources: [(name: "lamp", {lamp}, spectrum: Line(555))],
+                instruments: [(name: "meter", sensor: {METER}, at: (0, 0, 0), facing: (0, 0, 1))])"#,
+            wall[kind]
+        );
+        let found = measured_by(&text, &PlanOptions { naive, ..PlanOptions::default() }, &samples(1 << 9), 1);
+        prop_assert_eq!(found.readings[0].value, 0.0, "{}", text);
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 use etendue::calibration::evidence::ClassicRule;
-use etendue::calibration::{Chooser, FitOptions};
+use etendue::calibration::{Chooser, FitOptions, Outliers};
 use etendue::estimate::{Stop, Watch};
 use etendue::report::calibration::{
     covariance_root_to_csv, curve_to_csv, directional_to_csv, file_part, readings_to_csv, to_json, to_sensor_file, to_text,
@@ -15,6 +15,7 @@ use etendue::sensor::Acceptance;
 use etendue::study::calibrate::suggest::Wanted;
 use etendue::study::calibrate::{CalibrateError, CalibrateOptions, Calibrated, calibrate};
 
+use crate::file_set::FileSet;
 use crate::measure::whole;
 use crate::{Failure, complain, disk, output, print};
 
@@ -30,6 +31,9 @@ pub(crate) struct Arguments {
     /// How the smoothness is chosen.
     #[arg(long, value_enum, default_value_t = Choose::Evidence)]
     choose: Choose,
+    /// Weigh readings down that contradict the rest, instead of naming them only.
+    #[arg(long)]
+    robust: bool,
     /// Name the best N of the file's candidates for further exposures.
     #[arg(long, value_name = "N", value_parser = whole(1, 1000), allow_hyphen_values = true)]
     suggest: Option<u64>,
@@ -83,7 +87,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         std::fs::create_dir_all(folder).map_err(|e| disk::unwritable(folder, &e, "--out takes a folder that can be written"))?;
     }
     let options = CalibrateOptions {
-        fit: FitOptions { chooser: arguments.choose.chooser(), ..FitOptions::default() },
+        fit: FitOptions {
+            chooser: arguments.choose.chooser(),
+            outliers: if arguments.robust { Outliers::DownWeight } else { Outliers::Report },
+            ..FitOptions::default()
+        },
         seed: arguments.seed,
         suggest: arguments.suggest.map_or(0, |n| usize::try_from(n).unwrap_or(usize::MAX)),
         wanted: if arguments.reduce == "curve" { Wanted::Curve } else { Wanted::Quantity(arguments.reduce.clone()) },
@@ -144,9 +152,9 @@ fn save(folder: &Path, file: &str, calibration: &Calibration, calibrated: &Calib
     files.push((format!("{stem}-sensor.ron"), to_sensor_file(calibrated, sensor, &curve_files, &directional).into_bytes()));
     #[cfg(feature = "plot")]
     files.extend(picture::all(&stem, calibrated)?);
-    for (name, bytes) in &files {
-        output::save_at(&folder.join(name), bytes)?;
-    }
+    let set = FileSet::new(folder, files.iter().map(|(name, _)| name.clone()), "--out takes a folder that can be written")?;
+    files.iter().try_for_each(|(name, bytes)| set.add(name, bytes))?;
+    set.finish()?;
     for (name, _) in &files {
         complain(&format!("wrote {}", folder.join(name).display()));
     }

@@ -13,6 +13,7 @@ use etendue::scene::{FileProblem, Files, Scene};
 use etendue::study::StudyWatch;
 use etendue::study::converge::{ConvergeError, ConvergeOptions, Reference, converge, places};
 
+use crate::file_set::check_places;
 use crate::measure::{seconds, whole};
 use crate::processor_time::ProcessorClock;
 use crate::{Failure, disk, explain, output, print};
@@ -82,9 +83,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     plans.extend(naive.as_ref().map(|plan| ("naive", plan)));
     let reference = arguments.reference.as_deref().map(|given| reference(given, &scene)).transpose()?;
     // What cannot be written is told before the time is spent.
-    arguments.out.as_deref().map(output::check_place).transpose()?;
+    check_places(arguments.out.iter().map(|path| ("--out", path)))?;
     #[cfg(feature = "plot")]
-    arguments.picture.check(output::check_place)?;
+    arguments.picture.check()?;
 
     let options =
         ConvergeOptions { seeds: arguments.seeds, seed: arguments.seed, budget_seconds: arguments.budget, most_samples: arguments.up_to };
@@ -164,6 +165,7 @@ mod picture {
     use etendue::report::plot::{self, PlotError, Size, Style, Theme};
     use etendue::study::converge::Convergence;
 
+    use crate::file_set::check_places;
     use crate::{Failure, complain, output};
 
     #[derive(clap::Args)]
@@ -181,7 +183,7 @@ mod picture {
             self.plot.as_deref().and_then(Path::extension).is_some_and(|e| e.eq_ignore_ascii_case("png"))
         }
 
-        pub(crate) fn check(&self, writable: impl Fn(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
+        pub(crate) fn check(&self) -> Result<(), Failure> {
             let Some(path) = &self.plot else { return Ok(()) };
             if !self.is_png() && !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg")) {
                 return Err(Failure::Input(format!(
@@ -190,7 +192,7 @@ mod picture {
                     path.with_extension("svg").display()
                 )));
             }
-            writable(path)
+            check_places([("--plot", path)])
         }
 
         pub(crate) fn draw(&self, study: &Convergence) -> Result<(), Failure> {
@@ -206,9 +208,7 @@ mod picture {
             let theme = if self.dark { Theme::Dark } else { Theme::Light };
             let svg = plot::svg(&chart, &Style { theme, size: Size::Paper }).map_err(failed)?;
             let drawn = if self.is_png() { plot::png(&svg, 2.0).map_err(failed)? } else { svg.into_bytes() };
-            output::save_at(path, &drawn)?;
-            complain(&format!("wrote {}", path.display()));
-            Ok(())
+            output::save_and_say(path, &drawn)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `etendue coverage [SCENE…]`: how often the 95 % interval of each sampled reading covers the truth.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::ValueEnum;
@@ -11,8 +11,9 @@ use etendue::scene::Scene;
 use etendue::study::StudyWatch;
 use etendue::study::coverage::{CoverageError, CoverageOptions, coverage};
 
+use crate::file_set::check_places;
 use crate::measure::{seconds, share, whole};
-use crate::{Failure, complain, disk, explain, output, print};
+use crate::{Failure, disk, explain, output, print};
 
 /// Folders of scenes that are studied when none is named.
 const SHELVES: [&str; 2] = ["scenes", "scenes/lecture"];
@@ -65,7 +66,9 @@ enum Format {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    check_places(arguments)?;
+    // What cannot be written is told before minutes are spent.
+    let (out, markdown) = (arguments.out.iter(), arguments.markdown.iter());
+    check_places(out.map(|path| ("--out", path)).chain(markdown.map(|path| ("--markdown", path))))?;
     let scenes = read(arguments)?;
     let studied = studied(arguments, &scenes)?;
     let written = match arguments.format {
@@ -75,10 +78,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     match &arguments.out {
         None => print(&written)?,
-        Some(file) => saved(file, &written)?,
+        Some(file) => output::save_and_say(file, written.as_bytes())?,
     }
     if let Some(file) = &arguments.markdown {
-        saved(file, &to_markdown(&studied, &command()))?;
+        output::save_and_say(file, to_markdown(&studied, &command()).as_bytes())?;
     }
     match wrong(&studied) {
         0 => Ok(()),
@@ -90,30 +93,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// The command line as it was given.
 fn command() -> String {
     std::iter::once("etendue".to_owned()).chain(std::env::args().skip(1)).collect::<Vec<_>>().join(" ")
-}
-
-/// What cannot be written is told before minutes are spent.
-fn check_places(arguments: &Arguments) -> Result<(), Failure> {
-    let mut problems = String::new();
-    for path in arguments.out.iter().chain(&arguments.markdown) {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        if path.is_dir() {
-            problems.push_str(&format!("error: cannot write `{}`: it is a folder\n  = help: name a file in it\n", path.display()));
-        } else if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-            let (path, folder) = (path.display(), folder.display());
-            problems.push_str(&format!("error: cannot write `{path}`: there is no folder `{folder}`\n  = help: make it first\n"));
-        }
-    }
-    if let Some(file) = arguments.out.as_ref().filter(|file| Some(*file) == arguments.markdown.as_ref()) {
-        problems.push_str(&format!("error: --out and --markdown both name `{}`\n  = help: give them a file each\n", file.display()));
-    }
-    if problems.is_empty() { Ok(()) } else { Err(Failure::Input(problems)) }
-}
-
-fn saved(file: &Path, written: &str) -> Result<(), Failure> {
-    output::save_at(file, written.as_bytes())?;
-    complain(&format!("wrote {}", file.display()));
-    Ok(())
 }
 
 /// Every scene, or everything that is wrong with all of them.

@@ -10,8 +10,9 @@ use etendue::estimate::Watch;
 use etendue::estimate::run::with_threads;
 use etendue::report::datasheet::{to_json, to_text};
 use etendue::report::emva::{sheet_to_json, sheet_to_text};
-use etendue::scene::{Device, device_from_file};
+use etendue::scene::{Device, characterised_from_file};
 
+use crate::file_set::FileSet;
 use crate::measure::whole;
 use crate::{Failure, disk, output, print};
 
@@ -54,7 +55,8 @@ enum Format {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let device = device_from_file(&arguments.sensor, &disk::Anywhere, None).map_err(|problems| Failure::Input(problems.to_string()))?;
+    let device =
+        characterised_from_file(&arguments.sensor, &disk::Anywhere, None).map_err(|problems| Failure::Input(problems.to_string()))?;
     if let Some(folder) = &arguments.out {
         let help = "--out takes a folder that can be written";
         std::fs::create_dir_all(folder).map_err(|e| disk::unwritable(folder, &e, help))?;
@@ -106,12 +108,9 @@ impl Pages {
         let mut files: Vec<(String, Vec<u8>)> =
             vec![("sheet.txt".to_owned(), self.text.into_bytes()), ("sheet.json".to_owned(), self.json.into_bytes())];
         files.extend(drawn(&self.pictures)?);
-        for (name, bytes) in &files {
-            let target = folder.join(name);
-            disk::save(&target, bytes).map_err(|e| disk::unwritable(&target, &e, "--out takes a folder that can be written"))?;
-        }
-        let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-        crate::complain(&format!("wrote {} in {}", names.join(", "), folder.display()));
+        let set = FileSet::new(folder, files.iter().map(|(name, _)| name.clone()), "--out takes a folder that can be written")?;
+        files.iter().try_for_each(|(name, bytes)| set.add(name, bytes))?;
+        crate::complain(&format!("wrote {} in {}", set.finish()?.join(", "), folder.display()));
         Ok(())
     }
 }

@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use etendue::characterization::campaign::ChannelReadings;
 use etendue::characterization::readings_table::readings_from_csv;
-use etendue::scene::{Calibration, FileProblem, Files, Scene, read_calibration, read_scene};
+use etendue::scene::{Calibration, Device, FileProblem, Files, Scene, device_from_file, held_by, read_calibration, read_scene};
 
 use crate::{Failure, complain};
 
@@ -111,6 +111,17 @@ fn with_root(path: &str, root: Option<&str>) -> (String, Disk) {
     (path, Disk { root: Path::new(".").join(folder) })
 }
 
+/// The name that a file begins with, such as `Scene` or `Sensor`.
+pub(crate) fn holds(path: &str) -> Option<String> {
+    held_by(path, &Anywhere)
+}
+
+/// Reads a file of the shelf, as [`scene`] does a scene.
+pub(crate) fn device(path: &str, root: Option<&str>) -> Result<Device, Failure> {
+    let (path, disk) = with_root(path, root);
+    device_from_file(&path, &disk, root).map_err(|problems| Failure::Input(problems.to_string()))
+}
+
 /// Reads a calibration, as [`scene`] does a scene.
 pub(crate) fn calibration(path: &str, root: Option<&str>) -> Result<Calibration, Failure> {
     let (path, disk) = with_root(path, root);
@@ -201,6 +212,15 @@ pub(crate) fn save(target: &Path, written: &[u8]) -> Result<(), Error> {
     fs::write(&partial, written).and_then(|()| fs::rename(&partial, &target)).inspect_err(|_| {
         let _ = fs::remove_file(&partial);
     })
+}
+
+/// Moves a file that is written to its place; links and devices as [`save`] has them.
+pub(crate) fn moved(partial: &Path, target: &Path) -> Result<(), Error> {
+    let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
+    if fs::metadata(&target).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+        return fs::copy(partial, &target).and_then(|_| fs::remove_file(partial));
+    }
+    fs::rename(partial, &target)
 }
 
 /// A full disk is nobody's mistake; any other place that cannot be written to is for whoever named it to change.

@@ -9,7 +9,7 @@
 //! | `NAME-regions.csv` | the regions |
 //! | `NAME-frame-0000.png` … | raw frames with noise, 16 bits; `.tiff` if asked for; with the channel's name where there is no mosaic |
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use etendue::estimate::run::with_threads;
@@ -21,9 +21,9 @@ use etendue::report::{csv, text};
 use etendue::scene::{PlacedCamera, Scene};
 use etendue::sensor::Exposure;
 
-use crate::disk::unwritable;
+use crate::file_set::FileSet;
 use crate::measure::{failed, share, whole};
-use crate::output::{progress_bar, save_at};
+use crate::output::progress_bar;
 use crate::{Failure, complain, disk, explain, print};
 
 /// Digital numbers, columns and rows to a file.
@@ -77,8 +77,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         )));
     }
     let plan = arguments.plan.plan(&scene)?;
-    let help = "--out takes a folder that can be written";
-    std::fs::create_dir_all(&arguments.out).map_err(|e| unwritable(&arguments.out, &e, help))?;
+    let name = file_name(&placed.name);
+    let names = names(placed, arguments).into_iter().map(|ending| format!("{name}{ending}"));
+    let set = FileSet::new(&arguments.out, names, "--out takes a folder that can be written")?;
     let stop = Stop { target: arguments.target, budget_seconds: None, samples: arguments.samples };
     let bar = progress_bar();
     let start = Instant::now();
@@ -90,15 +91,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let mut frame = frame.map_err(|e| failed(&e))?;
         frame.provenance.scene_file.clone_from(&arguments.scene);
         frame.provenance.root.clone_from(&arguments.root);
-        let files = Files { folder: &arguments.out, name: file_name(&placed.name) };
+        let files = Files { set, name };
         files.write(&frame, placed)?;
         files.write_frames(&frame, placed, arguments)?;
-        print(&report(&frame, placed, &arguments.out))
+        files.set.finish()?;
+        print(&report(&frame, placed, arguments))
     })
 }
 
 /// The camera that is asked for, or the only one.
-fn chosen(scene: &Scene, name: Option<&str>) -> Result<usize, Failure> {
+pub(crate) fn chosen(scene: &Scene, name: Option<&str>) -> Result<usize, Failure> {
     let names: Vec<String> = scene.cameras.iter().map(|c| format!("`{}`", c.name)).collect();
     let wrong = |what: String, help: String| Err(Failure::Input(format!("error: {what}\n  = help: {help}")));
     match (name, names.len()) {
@@ -122,8 +124,31 @@ fn file_name(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
 }
 
-struct Files<'a> {
-    folder: &'a Path,
+/// Endings of all files that will be written.
+fn names(placed: &PlacedCamera, arguments: &Arguments) -> Vec<String> {
+    let fixed = ["-expected_e.npy", "-uncertainty_e.npy", "-luminance_cd_m2.npy", ".exr", "-preview.png", "-luminance.png"];
+    let mut names: Vec<String> = fixed.iter().map(ToString::to_string).collect();
+    if !placed.regions.is_empty() {
+        names.push("-regions.csv".to_owned());
+    }
+    for plane in 0..placed.camera.planes() {
+        let channel = channel_part(placed, plane);
+        names.extend((0..arguments.frames).map(|number| frame_ending(&channel, number, arguments.tiff)));
+    }
+    names
+}
+
+/// What tells the frames of a plane from those of the others: nothing where there is only one.
+fn channel_part(placed: &PlacedCamera, plane: usize) -> String {
+    if placed.camera.planes() == 1 { String::new() } else { format!("-{}", file_name(&placed.camera.channels[plane].name)) }
+}
+
+fn frame_ending(channel: &str, number: u64, tiff: bool) -> String {
+    format!("{channel}-frame-{number:04}.{}", if tiff { "tiff" } else { "png" })
+}
+
+struct Files {
+    set: FileSet,
     name: String,
 }
 
@@ -132,9 +157,9 @@ fn encoded(bytes: Result<Vec<u8>, ImageError>) -> Result<Vec<u8>, Failure> {
     bytes.map_err(|e| Failure::Run(format!("error: {e}")))
 }
 
-impl Files<'_> {
+impl Files {
     fn save(&self, ending: &str, bytes: &[u8]) -> Result<(), Failure> {
-        save_at(&self.folder.join(format!("{}{ending}", self.name)), bytes)
+        self.set.add(&format!("{}{ending}", self.name), bytes)
     }
 
     fn write(&self, frame: &Frame, placed: &PlacedCamera) -> Result<(), Failure> {
@@ -167,12 +192,12 @@ impl Files<'_> {
     /// A thread a frame: the memory of as many frames as there are threads, whatever their number.
     fn write_frames(&self, frame: &Frame, placed: &PlacedCamera, arguments: &Arguments) -> Result<(), Failure> {
         let Some(pixel) = &placed.camera.pixel else { return Ok(()) };
-        let (ending, write): (_, Encoder) = if arguments.tiff { ("tiff", tiff16) } else { ("png", png16) };
+        let write: Encoder = if arguments.tiff { tiff16 } else { png16 };
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get) as u64;
         let workers = arguments.threads.unwrap_or(cores).min(arguments.frames);
         for (k, plane) in frame.planes.iter().enumerate() {
             let expected: Vec<f32> = plane.expected_e.iter().map(|&x| x as f32).collect();
-            let channel = if frame.planes.len() == 1 { String::new() } else { format!("-{}", file_name(&plane.name)) };
+            let channel = channel_part(placed, k);
             let work = |worker: u64| {
                 let mut digital = vec![0u16; expected.len()];
                 (worker..arguments.frames).step_by(workers as usize).try_for_each(|number| {
@@ -185,7 +210,7 @@ impl Files<'_> {
                     };
                     pixel.expose_part(&exposure, 0, &expected, &mut digital);
                     let bytes = encoded(write(&digital, frame.columns, frame.rows))?;
-                    self.save(&format!("{channel}-frame-{number:04}.{ending}"), &bytes)
+                    self.save(&frame_ending(&channel, number, arguments.tiff), &bytes)
                 })
             };
             let work = &work;
@@ -201,7 +226,7 @@ impl Files<'_> {
 }
 
 /// What was done, in words.
-fn report(frame: &Frame, placed: &PlacedCamera, folder: &Path) -> String {
+fn report(frame: &Frame, placed: &PlacedCamera, arguments: &Arguments) -> String {
     frame.notes.iter().for_each(|note| complain(&format!("note: {note}")));
     let mut out = if frame.readings.is_empty() { format!("{}\n", frame.scene) } else { text::to_text(&frame.measurement()) };
     let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
@@ -224,6 +249,14 @@ fn report(frame: &Frame, placed: &PlacedCamera, folder: &Path) -> String {
         }
     }
     let preview = preview(frame, &placed.camera).rule;
-    out += &format!("  preview: {preview}\n  files in `{}`, {:.2} s\n", folder.display(), frame.wall_seconds);
+    if let (Some(pixel), true) = (&placed.camera.pixel, arguments.frames > 0) {
+        out += &format!(
+            "  raw frames hold digital numbers 0 … {} in 16 bits, black at {}{}\n",
+            pixel.largest_dn(),
+            pixel.black_dn,
+            if pixel.bits < 16 { ": a viewer that expects 0 … 65535 shows them dark; the preview is the picture to look at" } else { "" }
+        );
+    }
+    out += &format!("  preview: {preview}\n  files in `{}`, {:.2} s\n", arguments.out.display(), frame.wall_seconds);
     out
 }

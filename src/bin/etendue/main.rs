@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `disk.rs` | files on disk for the library, which opens none itself |
-//! | `checkpoint.rs`, `output.rs` | the files that runs write |
+//! | `checkpoint.rs`, `output.rs`, `file_set.rs` | the files that runs write |
 //! | `processor_time.rs` | the clock that the standard library lacks |
 //! | every other file | a subcommand |
 //!
@@ -21,6 +21,7 @@ mod equation;
 mod explain;
 #[cfg(feature = "image")]
 mod expose;
+mod file_set;
 mod list;
 mod measure;
 mod merge;
@@ -53,7 +54,7 @@ struct Arguments {
 enum Command {
     /// Responsivity curves from readings, with their uncertainty, and what the readings do not see.
     Calibrate(calibrate::Arguments),
-    /// Every problem of a scene file, or "ok".
+    /// Every problem of a file, or "ok": a scene, a sensor, a camera, a pixel, or a calibration.
     Check(check::Arguments),
     /// The data sheet of a sensor: every quality index computed from its curves and measured on a virtual bench.
     Datasheet(datasheet::Arguments),
@@ -76,7 +77,7 @@ enum Command {
     Merge(merge::Arguments),
     /// Measure again what a file of readings says, and tell whether the bits agree.
     Repeat(repeat::Arguments),
-    /// Take frames of a camera pixel in a flat field, and measure the figures of EMVA 1288 from them.
+    /// Take frames of a camera in a flat field, and measure the figures of EMVA 1288 from them.
     #[cfg(feature = "image")]
     PhotonTransfer(photon_transfer::Arguments),
     /// Draw a picture: SVG or PNG, light or dark, for paper or slides.

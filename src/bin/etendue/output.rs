@@ -10,7 +10,7 @@ use etendue::report::{csv, json, text};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::disk::unwritable;
-use crate::{Failure, disk, print};
+use crate::{Failure, complain, disk, print};
 
 /// What readings look like, and where they go.
 #[derive(clap::Args)]
@@ -84,20 +84,16 @@ fn prepared(folder: &Path, scene: &str, extension: &str) -> Result<PathBuf, Fail
     }
 }
 
-/// Whether a file can be put there: told before the time of a study is spent.
-pub(crate) fn check_place(path: &Path) -> Result<(), Failure> {
-    match path.parent().filter(|p| !p.as_os_str().is_empty()) {
-        _ if path.is_dir() => Err(Failure::Input(format!("error: cannot write `{}`: it is a folder", path.display()))),
-        Some(folder) if !folder.is_dir() => {
-            Err(Failure::Input(format!("error: cannot write `{}`: there is no folder `{}`", path.display(), folder.display())))
-        }
-        _ => Ok(()),
-    }
-}
-
 /// Puts a file where `--out` or `--plot` says.
 pub(crate) fn save_at(target: &Path, written: &[u8]) -> Result<(), Failure> {
     disk::save(target, written).map_err(|e| unwritable(target, &e, "--out takes a place that can be written"))
+}
+
+/// Puts a file there, and says so on stderr.
+pub(crate) fn save_and_say(target: &Path, written: &[u8]) -> Result<(), Failure> {
+    save_at(target, written)?;
+    complain(&format!("wrote {}", target.display()));
+    Ok(())
 }
 
 fn save(target: &Path, written: &str) -> Result<(), Failure> {

@@ -11,9 +11,10 @@ use etendue::study::StudyWatch;
 use etendue::study::converge::ConvergeOptions;
 use etendue::study::savings::{SavingsOptions, savings};
 
+use crate::file_set::check_places;
 use crate::measure::{seconds, share, whole};
 use crate::processor_time::ProcessorClock;
-use crate::{Failure, complain, disk, output, print};
+use crate::{Failure, disk, output, print};
 
 /// What each rule of the plan saves: the cost of a reading with all rules, without each of them, and with none.
 #[derive(clap::Args)]
@@ -63,11 +64,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         // What rules save is counted on readings of instruments; pictures have rules of their own.
         scenes.retain(|(_, scene)| !scene.instruments.is_empty());
     }
-    if arguments.out.is_some() && arguments.out == arguments.markdown {
-        return Err(Failure::Input("error: --out and --markdown name the same file\n  = help: give them a file each".to_owned()));
-    }
     // A place that cannot be used is told before minutes are spent.
-    arguments.out.iter().chain(&arguments.markdown).try_for_each(|file| output::check_place(file))?;
+    let (out, markdown) = (arguments.out.iter(), arguments.markdown.iter());
+    check_places(out.map(|path| ("--out", path)).chain(markdown.map(|path| ("--markdown", path))))?;
 
     let ladder = ConvergeOptions { seeds: arguments.seeds, budget_seconds: arguments.budget_per_scene, ..ConvergeOptions::default() };
     let options = SavingsOptions { error: arguments.error, ladder };
@@ -100,8 +99,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(file) => output::save_at(file, written.as_bytes())?,
     }
     if let Some(file) = &arguments.markdown {
-        output::save_at(file, to_markdown(&report).as_bytes())?;
-        complain(&format!("wrote {}", file.display()));
+        output::save_and_say(file, to_markdown(&report).as_bytes())?;
     }
     match report.failed.as_slice() {
         [] => Ok(()),

@@ -1,7 +1,9 @@
 //! `etendue stability`: sweeps over what is stiff or extreme, held against closed forms and laws.
 
 use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+#[cfg(feature = "plot")]
+use std::path::Path;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::ValueEnum;
@@ -10,7 +12,10 @@ use etendue::report::stability as report;
 use etendue::study::stability::{SWEEPS, Sweep, SweepResult, run as sweep_run};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::{Failure, complain, print};
+#[cfg(feature = "plot")]
+use crate::disk;
+use crate::file_set::check_places;
+use crate::{Failure, output, print};
 
 /// Drive scenes to where they are stiff or extreme, and hold their readings against closed forms and laws.
 #[derive(clap::Args)]
@@ -52,22 +57,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return print(&SWEEPS.iter().map(line).collect::<String>());
     }
     let sweeps = chosen(&arguments.sweep)?;
-    let mut files: Vec<&Path> = arguments.out.iter().chain(&arguments.markdown).map(PathBuf::as_path).collect();
-    files.sort_unstable();
     // A place that cannot be used is told before minutes are spent.
-    for (i, file) in files.iter().enumerate() {
-        if i > 0 && files[i - 1] == *file {
-            return Err(Failure::Input(format!(
-                "error: --out and --markdown both name `{}`\n  = help: give them a file each",
-                file.display()
-            )));
-        }
-        writable(file)?;
-    }
+    let (out, markdown) = (arguments.out.iter(), arguments.markdown.iter());
+    check_places(out.map(|path| ("--out", path)).chain(markdown.map(|path| ("--markdown", path))))?;
     #[cfg(feature = "plot")]
     if let Some(folder) = &arguments.plots {
-        std::fs::create_dir_all(folder).map_err(|e| unwritable(folder, &e))?;
-        writable(&folder.join("deviation.svg"))?;
+        let help = "--plots takes a folder that can be written";
+        std::fs::create_dir_all(folder).map_err(|e| disk::unwritable(folder, &e, help))?;
+        check_places([("--plots", &folder.join("deviation.svg"))])?;
     }
     let results = measured(&sweeps);
     let written = match arguments.format {
@@ -76,11 +73,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Format::Csv => report::csv::to_csv(&results),
     };
     match &arguments.out {
-        Some(file) => save(file, &written)?,
+        Some(file) => output::save_and_say(file, written.as_bytes())?,
         None => print(&written)?,
     }
     if let Some(file) = &arguments.markdown {
-        save(file, &report::to_markdown(&results))?;
+        output::save_and_say(file, report::to_markdown(&results).as_bytes())?;
     }
     #[cfg(feature = "plot")]
     if let Some(folder) = &arguments.plots {
@@ -131,38 +128,8 @@ fn draw(folder: &Path, results: &[SweepResult]) -> Result<(), Failure> {
             let Some(chart) = chart else { continue };
             let style = Style { theme: Theme::Light, size: Size::Paper };
             let picture = plot::svg(&chart, &style).map_err(|e| Failure::Run(format!("error: {}: {e}", result.sweep.name)))?;
-            save(&folder.join(format!("{}-{what}.svg", result.sweep.name)), &picture)?;
+            output::save_and_say(&folder.join(format!("{}-{what}.svg", result.sweep.name)), picture.as_bytes())?;
         }
     }
     Ok(())
-}
-
-fn partial(target: &Path) -> PathBuf {
-    let mut name = target.as_os_str().to_owned();
-    name.push(".partial");
-    PathBuf::from(name)
-}
-
-/// Tries the place without touching what is there.
-fn writable(target: &Path) -> Result<(), Failure> {
-    if target.is_dir() {
-        return Err(unwritable(target, &std::io::Error::from(std::io::ErrorKind::IsADirectory)));
-    }
-    let partial = partial(target);
-    std::fs::write(&partial, "").and_then(|()| std::fs::remove_file(&partial)).map_err(|e| unwritable(target, &e))
-}
-
-/// Writes beside the target first and then moves: there is never half a file.
-fn save(target: &Path, written: &str) -> Result<(), Failure> {
-    let partial = partial(target);
-    std::fs::write(&partial, written).and_then(|()| std::fs::rename(&partial, target)).map_err(|e| {
-        let _ = std::fs::remove_file(&partial);
-        Failure::Run(format!("error: cannot write `{}`: {e}", target.display()))
-    })?;
-    complain(&format!("wrote {}", target.display()));
-    Ok(())
-}
-
-fn unwritable(path: &Path, e: &std::io::Error) -> Failure {
-    Failure::Input(format!("error: cannot write `{}`: {e}\n  = help: name a place that can be written to", path.display()))
 }

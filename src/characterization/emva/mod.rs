@@ -46,6 +46,7 @@ mod error;
 mod figures;
 mod fit;
 mod model;
+mod range;
 pub mod statistics;
 #[cfg(test)]
 mod tests;
@@ -53,6 +54,7 @@ mod tests;
 pub use error::EmvaError;
 pub use figures::{FITTED_UP_TO, Figure, Figures};
 pub use model::expected;
+pub use range::longest_exposure_s;
 use statistics::{Pair, Spatial, Stack};
 
 /// The longest exposure of a series, in times that fill the well or reach the end of the ADC: just past saturation.

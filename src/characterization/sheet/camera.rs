@@ -173,6 +173,8 @@ impl CameraSheet {
 
         // The lamp is set by the closed form, and read by the engine.
         let electrons_per_s = PAST_SATURATION * hard_e / longest_s - dark_e_s;
+        emva::longest_exposure_s(pixel, temperature_c, electrons_per_s)
+            .map_err(|error| SheetError::Frames { channel: channel.name.clone(), error })?;
         let per_joule = photons_per_joule(WavelengthsIn::StandardAir).at(wavelength_nm);
         let per_radiance = irradiance_at_f_number(1.0, F_NUMBER) * per_joule * camera.pitch_m * camera.pitch_m;
         let lamp = Density::line(wavelength_nm, electrons_per_s / (efficiency * per_radiance))?;

@@ -53,6 +53,9 @@ use crate::quantity::Measurand;
 use crate::sensor::{Acceptance, Sensor};
 use crate::spectrum::SpectrumError;
 
+/// Indices that every illuminance meter has; one that is absent is not known. Without ranges there is no f11, and nothing is missing.
+const NEEDED: [&str; 5] = ["f1′", "u", "r", "f2", "f3"];
+
 /// How the bench is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -155,7 +158,9 @@ pub struct ChannelSheet {
     pub absent: Vec<Absent>,
     /// The measured responsivity.
     pub responsivity: Responsivity,
-    /// Class by all indices that have limits, those of the directional response included; for illuminance meters.
+    /// Symbols of the indices that have limits and are not known: class and total are at best what is said here.
+    pub unknown: Vec<&'static str>,
+    /// Class by all indices that have limits and are known, those of the directional response included; for illuminance meters.
     pub class: Option<Classified>,
     /// Sum of the indices that have limits, %, with the class of the sum; for illuminance meters.
     pub total: Option<(Figure, Classified)>,
@@ -288,6 +293,8 @@ pub fn data_sheet(sensor: &Sensor, options: &Options, watch: &Watch<'_>) -> Resu
         if spectral::is_illuminance(channel) {
             let all = || sheet.indices.iter().chain(&directional.indices);
             let judged: Vec<_> = all().filter_map(|i| Some((i.limits?, i.measured.value, i.standard_uncertainty()))).collect();
+            let absent = sheet.absent.iter().chain(&directional.absent).map(|absent| absent.symbol);
+            sheet.unknown = absent.filter(|symbol| NEEDED.contains(symbol)).collect();
             sheet.class = class_limits::worst(&judged);
             sheet.total = total(&judged);
         }

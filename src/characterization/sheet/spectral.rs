@@ -88,6 +88,7 @@ pub(super) fn characterise(bench: &Bench<'_>, full: &Sensor, index: usize, spect
         lamps,
         absent,
         responsivity: Responsivity { wavelengths_nm: spectrogram.wavelengths_nm.clone(), readings: spectrogram.readings[index].clone() },
+        unknown: Vec::new(),
         class: None,
         total: None,
     })

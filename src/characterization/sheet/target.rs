@@ -6,7 +6,7 @@
 //! | scotopic illuminance | V′(λ) | A |
 //! | α-opic equivalent daylight (D65) illuminance | the α-opic action spectrum | D65 |
 //! | photosynthetic photon flux density | photons from 400 nm to 700 nm | A |
-//! | erythemal irradiance | erythema action spectrum of ISO/CIE 17166 | ASTM G173 global tilt |
+//! | erythemal irradiance, UV index | erythema action spectrum of ISO/CIE 17166 | ASTM G173 global tilt |
 //!
 //! Sources: CIE 018:2019, CIE S 026:2018; ISO/CIE 17166, `1` up to 298 nm, `10^(0.094 (298 − λ))` up to 328 nm, `10^(0.015 (140 − λ))` up to
 //! 400 nm (139 in place of 140 in McKinlay and Diffey 1987), here piecewise linear between whole nanometres.
@@ -83,7 +83,8 @@ impl Target {
                 let curve = Factor::Product(vec![band, photons_per_joule(WavelengthsIn::StandardAir)]);
                 Some(Self::adjusted_with_a("photons, 400 nm to 700 nm", curve, (350.0, 800.0)))
             }
-            "erythemal irradiance" => Some(Self {
+            // The UV index is the same by another unit: 40 m²/W.
+            "erythemal irradiance" | "UV index" => Some(Self {
                 name: "erythema action spectrum".to_owned(),
                 curve: erythema()?,
                 range_nm: (280.0, 400.0),

@@ -19,7 +19,11 @@ fn header(calibrated: &Calibrated, channel: &CalibratedChannel) -> Vec<(String, 
         ("quantity", "spectral responsivity, fitted".to_owned()),
         ("unit", channel.unit.clone()),
         ("readings", calibrated.labels.len().to_string()),
-        ("prior", format!("{}, {:.0} nm", calibrated.prior.0, calibrated.prior.1)),
+        match calibrated.prior.1 {
+            length if length.is_finite() => ("prior", format!("{}, {length:.0} nm", calibrated.prior.0)),
+            _ => ("model", calibrated.prior.0.clone()),
+        },
+        ("simultaneous_factor_95", channel.simultaneous.map_or_else(|| "none".to_owned(), |k| format!("{k:.3}"))),
         ("not_determined_nm", in_words(&channel.unseen_nm)),
     ]
     .map(|(key, value)| (key.to_owned(), value))

@@ -3,12 +3,16 @@
 //! | file | what |
 //! |---|---|
 //! | `text.rs` | a page for a person: what was found, how well, what was not seen |
+//! | `consistency.rs` | the part of that page on readings that contradict the rest |
+//! | `parametric.rs` | the part of that page on the parameters of a model |
 //! | `json.rs` | everything, for programs |
 //! | `curve.rs` | the curve as CSV, a root of its covariance, readings and residuals |
 //! | `sensor.rs` | a sensor file with the fitted curves, to be used in scenes |
 
+mod consistency;
 mod curve;
 mod json;
+mod parametric;
 mod sensor;
 mod text;
 

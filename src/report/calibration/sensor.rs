@@ -18,6 +18,9 @@ pub fn to_sensor_file(calibrated: &Calibrated, sensor: &Sensor, curve_files: &[S
         one_line(&calibrated.title),
         env!("CARGO_PKG_VERSION"),
     );
+    if calibrated.channels.iter().any(|c| c.curve.parametric.is_some()) {
+        let _ = writeln!(text, "// Model: {}. Its parameters stand in the report.", one_line(&calibrated.prior.0));
+    }
     for channel in calibrated.channels.iter().filter(|c| !c.unseen_nm.is_empty()) {
         let ranges: Vec<String> = channel.unseen_nm.iter().map(|(a, b)| format!("{a} nm to {b} nm")).collect();
         let _ = writeln!(text, "// Not determined, channel {}: {}.", one_line(&channel.readings.channel), ranges.join(", "));

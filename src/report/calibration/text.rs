@@ -2,10 +2,12 @@
 
 use std::fmt::Write;
 
+use super::consistency::consistency_text;
+use super::parametric::parametric_text;
 use crate::metrology::rounding::{Rounded, format_significant};
 use crate::study::calibrate::propagate::{DRAWS, Propagated};
 use crate::study::calibrate::suggest::Wanted;
-use crate::study::calibrate::{Calibrated, CalibratedChannel};
+use crate::study::calibrate::{Calibrated, CalibratedChannel, UNDETERMINED};
 
 /// Rows of the curve that are printed; the files hold them all.
 const ROWS: usize = 17;
@@ -24,7 +26,11 @@ pub fn to_text(calibrated: &Calibrated) -> String {
         0 => "bench by formulas, without a ray".to_owned(),
         n => format!("bench by {n} samples, one tracing for all spectra"),
     };
-    let _ = writeln!(text, "{rays}; curves smooth over {:.0} nm ({})", calibrated.prior.1, calibrated.prior.0);
+    let curves = match calibrated.prior.1 {
+        length if length.is_finite() => format!("curves smooth over {length:.0} nm ({})", calibrated.prior.0),
+        _ => format!("curves of a model: {}", calibrated.prior.0),
+    };
+    let _ = writeln!(text, "{rays}; {curves}");
     if let Some(beam) = &calibrated.beam {
         let ends = beam.powers.iter().fold((f64::INFINITY, 0.0f64), |(low, high), p| (low.min(*p), high.max(*p)));
         let worst = beam.relative_uncertainties.iter().fold(0.0f64, |most, u| most.max(*u));
@@ -46,17 +52,20 @@ pub fn to_text(calibrated: &Calibrated) -> String {
         channel_text(&mut text, calibrated, channel);
     }
     if !calibrated.suggestions.is_empty() {
-        text.push_str("\nFurther exposures that would help most\n");
+        text.push_str("\nFurther exposures that would help most, by the error that is expected with them\n");
         for (i, s) in calibrated.suggestions.iter().enumerate() {
             let (before, after) = match &calibrated.wanted {
                 Wanted::Curve => {
                     let percent = |x: f64| format!("{} %", format_significant(100.0 * x, 3));
-                    (format!("u of the curve {}", percent(s.before)), format!("{} of its peak (RMS)", percent(s.after)))
+                    (format!("error of the curve {}", percent(s.before)), format!("{} of its peak (RMS)", percent(s.after)))
                 }
-                Wanted::Quantity(name) => (format!("u of {name} {}", format_significant(s.before, 2)), format_significant(s.after, 2)),
+                Wanted::Quantity(name) => (format!("error of {name} {}", format_significant(s.before, 2)), format_significant(s.after, 2)),
             };
             let _ = writeln!(text, "  {}. {}: {before} → {after}", i + 1, s.label);
         }
+        text.push_str(
+            "  Expected where the fitted curve is right about where it is small; the stated u does not rely on that, and is larger.\n",
+        );
     }
     for remark in &calibrated.remarks {
         let _ = writeln!(text, "note: {remark}");
@@ -76,12 +85,29 @@ fn channel_text(text: &mut String, calibrated: &Calibrated, channel: &Calibrated
         format_significant(curve.chi_squared, 3),
         format_significant(curve.effective_parameters, 2),
     );
+    if let Some(parametric) = &curve.parametric {
+        parametric_text(text, calibrated, channel, parametric);
+    }
     match channel.unseen_nm.as_slice() {
+        [] if curve.parametric.is_some() => text.push_str("  If the model holds, the readings determine the curve at every node.\n"),
         [] => text.push_str("  The readings determine the curve at every node.\n"),
         ranges => {
             let words: Vec<String> = ranges.iter().map(|(a, b)| format!("{a} nm to {b} nm")).collect();
             let _ = writeln!(text, "  The readings do not determine the curve at {}: there it is a guess.", words.join(", "));
+            let _ = writeln!(
+                text,
+                "  (Open is more than {} %: of what was unknown before the readings, of what they weigh of a curve that is 1 everywhere; or it lies outside the width \
+                 at half maximum of every exposure.)",
+                100.0 * UNDETERMINED
+            );
         }
+    }
+    if let Some(factor) = channel.simultaneous {
+        let _ = writeln!(
+            text,
+            "  ±1.96 u holds each of its nodes with 95 %, ±{} u all that are determined at once.",
+            format_significant(factor, 3)
+        );
     }
     if let Some((share, label)) = channel.outside.as_ref().filter(|(share, _)| *share > TOLD_OUTSIDE) {
         let _ = writeln!(
@@ -90,6 +116,7 @@ fn channel_text(text: &mut String, calibrated: &Calibrated, channel: &Calibrated
             format_significant(100.0 * share, 2)
         );
     }
+    consistency_text(text, channel);
     curve_rows(text, calibrated, channel);
     if !channel.uses.is_empty() {
         uses_text(text, channel);

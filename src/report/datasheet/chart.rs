@@ -1,7 +1,7 @@
 //! Charts of a data sheet: responsivity beside its target, deviation from the cosine, mismatch of lamps.
 
 use crate::characterization::sheet::{ChannelSheet, DataSheet};
-use crate::report::plot::chart::{Anchor, Axis, Chart, Curve, Ink, Note};
+use crate::report::plot::chart::{Axis, Chart, Curve, Ink};
 
 /// Every chart of a sheet, with the stem of its file.
 #[must_use]
@@ -108,25 +108,24 @@ fn lamps(sheet: &DataSheet, channel: &ChannelSheet) -> Option<Chart> {
     }
     let off: Vec<f64> = channel.lamps.iter().map(|lamp| 100.0 / lamp.measured.value - 100.0).collect();
     let (low, high) = off.iter().fold((-0.5_f64, 0.5_f64), |(low, high), y| (low.min(*y), high.max(*y)));
-    let margin = 0.12 * (high - low);
+    let margin = 0.08 * (high - low);
     let count = off.len() as f64;
-    let x = Axis { visible: false, ..Axis::linear("Lamp", "1", -0.4, count + 0.4) };
-    let y = Axis::linear("Reading over truth − 1", "%", low - 2.5 * margin, high + margin);
+    // The first lamp on top.
+    let row = |i: usize| count - i as f64 - 0.5;
+    let x = Axis::linear("Reading over truth − 1", "%", low - margin, high + margin);
+    let ticks = channel.lamps.iter().enumerate().map(|(i, lamp)| (row(i), lamp.name.clone())).collect();
+    let y = Axis { ticks, ..Axis::linear("Lamp", "by name", 0.0, count) };
     let adjusted = channel.target.as_ref().map_or("", |target| target.calibration_name);
     let subtitle = format!("{}, {}; adjusted with {adjusted}", sheet.title, channel.name);
     let mut chart = Chart::new("Spectral mismatch of lamps", &subtitle, x, y);
-    for (i, (lamp, off)) in channel.lamps.iter().zip(&off).enumerate() {
-        let (left, right) = (i as f64 + 0.15, i as f64 + 0.85);
+    for (i, off) in off.iter().enumerate() {
+        let (lower, upper) = (row(i) - 0.35, row(i) + 0.35);
         chart.areas.push(Area {
-            points: vec![[left, 0.0], [right, 0.0], [right, *off], [left, *off]],
+            points: vec![[0.0, lower], [*off, lower], [*off, upper], [0.0, upper]],
             ink: Ink::Palette(usize::from(*off < 0.0)),
             opacity: 0.85,
         });
-        // Names stand in two rows, so that neighbours have room.
-        let row = if i % 2 == 0 { low - 0.9 * margin } else { low - 1.8 * margin };
-        let text = lamp.name.clone();
-        chart.notes.push(Note { text, at: [i as f64 + 0.5, row], shift_em: [0.0, 0.0], anchor: Anchor::Middle, ink: Ink::Text });
     }
-    chart.curves.push(Curve::new("truth", vec![[-0.4, 0.0], [count + 0.4, 0.0]], Ink::Muted).behind().unwritten());
+    chart.curves.push(Curve::new("truth", vec![[0.0, 0.0], [0.0, count]], Ink::Muted).behind().unwritten());
     Some(chart)
 }

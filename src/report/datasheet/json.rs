@@ -1,7 +1,7 @@
 //! A data sheet as JSON.
 //!
 //! Schema 1: `{"schema", "title", "receptor", "options", "readings", "rays", "directional": [index], "goniogram", "channels": [{"name",
-//! "quantity", "unit", "target", "indices": [index], "lamps", "class", "total", "responsivity"}]}`. An index is `{"symbol", "name", "unit",
+//! "quantity", "unit", "target", "indices": [index], "lamps", "not_known", "class", "total", "responsivity"}]}`. An index is `{"symbol", "name", "unit",
 //! "computed", "measured", "deviation_in_standard_uncertainties", "class", "probability", "conditions"}`, a figure
 //! `{"value", "standard_uncertainty"}`. What is not there or not finite is `null`.
 
@@ -99,6 +99,8 @@ struct ChannelLine<'a> {
     indices: Vec<IndexLine<'a>>,
     absent: Vec<AbsentLine<'a>>,
     lamps: Vec<LampLine<'a>>,
+    /// Indices that have limits and are not known; class and total are lower bounds then.
+    not_known: &'a [&'static str],
     class: Option<ClassLine>,
     total_percent: Option<TotalLine>,
     responsivity: ResponsivityLine<'a>,
@@ -165,6 +167,7 @@ fn channel(sheet: &ChannelSheet) -> ChannelLine<'_> {
                 deviation_in_standard_uncertainties: finite(lamp.computed.deviation_u(&lamp.measured)),
             })
             .collect(),
+        not_known: &sheet.unknown,
         class: sheet.class.as_ref().map(class),
         total_percent: sheet.total.as_ref().map(|(sum, found)| TotalLine { figure: figure(sum), class: class(found) }),
         responsivity: ResponsivityLine {

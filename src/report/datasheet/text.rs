@@ -54,15 +54,22 @@ pub fn to_text(sheet: &DataSheet) -> String {
 }
 
 fn channel_lines(channel: &ChannelSheet) -> Vec<String> {
-    let reads = channel.reads.with_unit("").trim().to_owned();
-    let title = format!("{}: {} in {reads}", channel.name, channel.reads.name());
+    let title = match channel.reads.unit() {
+        "" | "1" => format!("{}: {}, a number", channel.name, channel.reads.name()),
+        unit => format!("{}: {} in {unit}", channel.name, channel.reads.name()),
+    };
     let mut lines = section(&title, &channel.indices, &channel.absent);
+    let unknown = channel.unknown.join(" and ");
     if let Some(class) = &channel.class {
-        lines.push(format!("  {} by these indices and those of the directional response", verdict(class)));
+        let missing = if unknown.is_empty() { String::new() } else { format!("; {unknown} is not known") };
+        let by = "by these indices and those of the directional response";
+        lines.extend(wrapped(&format!("{} {by}{missing}", verdict(class, !unknown.is_empty())), "  "));
     }
     if let Some((total, class)) = &channel.total {
-        let note = "sum of the indices that have limits; f4, f5, α, f7 and the uncertainty of calibration are not in it";
-        lines.extend(wrapped(&format!("total {} %, {}: {note}", number(total), verdict(class)), "  "));
+        let without = if unknown.is_empty() { String::new() } else { format!("{unknown}, ") };
+        let at_least = if unknown.is_empty() { "" } else { "at least " };
+        let note = format!("sum of the indices that have limits; {without}f4, f5, α, f7 and the uncertainty of calibration are not in it");
+        lines.extend(wrapped(&format!("total {at_least}{} %, {}: {note}", number(total), verdict(class, !unknown.is_empty())), "  "));
     }
     if !channel.lamps.is_empty() {
         lines.extend(lamp_lines(channel));
@@ -70,9 +77,11 @@ fn channel_lines(channel: &ChannelSheet) -> Vec<String> {
     lines
 }
 
-fn verdict(class: &Classified) -> String {
+/// The class with its probability; `at_best` where an index is not known.
+fn verdict(class: &Classified, at_best: bool) -> String {
     let p = probability(class.probability);
-    class.class.map_or_else(|| format!("no class, p = {p}"), |letter| format!("class {letter}, p = {p}"))
+    let best = if at_best { " at best" } else { "" };
+    class.class.map_or_else(|| format!("no class, p = {p}"), |letter| format!("class {letter}{best}, p = {p}"))
 }
 
 /// A probability: one that is not certain is not written as 1.

@@ -8,28 +8,39 @@
 //! | file | what |
 //! |---|---|
 //! | `mod.rs` | the way from a campaign to fitted channels |
+//! | `measured_light` | the light of the exposures, where a reference detector measured it |
 //! | [`propagate`] | f1′, mismatch correction and luminous responsivity, with their uncertainties |
+//! | [`range`] | readings beyond the straight range of the readout |
 //! | [`suggest`] | which further exposure helps most |
 
+mod measured_light;
 pub mod propagate;
+pub mod range;
 pub mod suggest;
 
 use std::fmt;
 
 use crate::calibration::evidence::RulePoint;
-use crate::calibration::{CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, PriorKind, Readings, fit};
+use crate::calibration::{
+    CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, Model, OpticalDensity, PriorKind, Readings, fit, simultaneous,
+};
 use crate::characterization::campaign::{self, CampaignError, ChannelReadings, Light};
-use crate::characterization::substitution::{self, MeasuredBeam};
+use crate::characterization::substitution::MeasuredBeam;
 use crate::estimate::{Stop, Watch};
 use crate::quantity::Measurand;
-use crate::scene::Calibration;
+use crate::scene::{Calibration, CurveModel};
 use crate::spectrum::{Density, Factor, Outside, SpectrumError, Table};
 
+use measured_light::{add_shared, at_power, beam, per_factor};
 use propagate::Propagated;
 use suggest::{Suggestion, Wanted};
 
-/// Share of the variance before the readings above which a node counts as not determined: its uncertainty is still half of what it was.
+/// What may be open at a node that counts as determined: a quarter of the variance before the readings (half of the uncertainty), or of what its averaging
+/// kernel should weigh; see [`FittedCurve::undetermined`].
 pub const UNDETERMINED: f64 = 0.25;
+
+/// Probability with which a simultaneous band holds the whole curve.
+pub const SIMULTANEOUS: f64 = 0.95;
 
 /// Share of the nodes at which a curve may bend more than its uncertainty before it is said.
 const COARSE: f64 = 0.05;
@@ -37,7 +48,7 @@ const COARSE: f64 = 0.05;
 /// How to calibrate.
 #[derive(Clone, Debug, Default)]
 pub struct CalibrateOptions {
-    /// How to fit.
+    /// How to fit; the model is that of the file.
     pub fit: FitOptions,
     /// Seed of the noise of simulated readings and of the rays.
     pub seed: u64,
@@ -113,6 +124,9 @@ pub struct CalibratedChannel {
     pub curve: FittedCurve,
     /// Standard uncertainty at each node, the common scale included.
     pub standard_uncertainties: Vec<f64>,
+    /// What the standard uncertainties are multiplied by for a band that holds the curve at all determined nodes at once with 95 %; `None` if no
+    /// node is determined.
+    pub simultaneous: Option<f64>,
     /// The true curve at the nodes, if the readings were simulated.
     pub truth: Option<Vec<f64>>,
     /// The largest share of a reading that came from outside of the nodes, with its exposure; known if the readings were simulated.
@@ -183,14 +197,11 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     let sensor = &calibration.bench.instruments[0].sensor;
     let factors: Vec<f64> = sensor.channels.iter().map(|c| campaign::geometry_factor(sensor, c)).collect();
     let scaled: Vec<Readings> = readings.iter().zip(&factors).map(|(r, g)| per_factor(r, *g, beam.as_ref())).collect();
-    let mut fitted = fit(&exposures, &scaled, &FitOptions { prior: prior(options, &readings, nodes), ..options.fit.clone() })?;
-    let mut scale_uncertainty = calibration.scale_uncertainty.hypot(light.relative_uncertainty);
-    if let Some(beam) = &beam {
-        scale_uncertainty = scale_uncertainty.hypot(beam.scale_uncertainty);
-        for (curve, readings) in fitted.curves.iter_mut().zip(&scaled) {
-            add_shared(curve, readings, &beam.shared);
-        }
-    }
+    let options_of_fit = FitOptions { prior: prior(options, &readings, nodes), model: model(&calibration.model), ..options.fit.clone() };
+    let mut fitted = fit(&exposures, &scaled, &options_of_fit)?;
+    let rays = calibration.scale_uncertainty.hypot(light.relative_uncertainty);
+    let scale_uncertainty = beam.as_ref().map_or(rays, |beam| rays.hypot(beam.scale_uncertainty));
+    beam.iter().for_each(|beam| fitted.curves.iter_mut().zip(&scaled).for_each(|(curve, read)| add_shared(curve, read, &beam.shared)));
     let mut channels = Vec::with_capacity(readings.len());
     let mut remarks = calibration.remarks.clone();
     remarks.extend(fitted.remarks.iter().cloned());
@@ -198,7 +209,8 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
         let simulated = options.data.is_none().then(|| campaign::sought(&sensor.channels[c]));
         let found = channel(calibration, curve, readings, simulated.as_ref(), taken, scale_uncertainty, options.seed)?;
         remarks.extend(too_coarse(nodes, &found));
-        channels.push(CalibratedChannel { per_irradiance: factors[c], ..found });
+        remarks.extend(range::beyond_range(sensor, &sensor.channels[c], &found.readings, exposures.labels()));
+        channels.push(in_units_of_readings(found, factors[c]));
     }
     let suggestions = if options.suggest > 0 && !candidates.is_empty() {
         let further = Exposures::new(nodes, candidates)?;
@@ -212,35 +224,6 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     };
     let assembled = assembled(calibration, options, &light, exposures, &fitted, channels, suggestions, scale_uncertainty, remarks);
     Ok(Calibrated { beam, ..assembled })
-}
-
-/// The light as the reference measured it; takes the reference's readings, the last ones, from those of a laboratory.
-fn beam(
-    calibration: &Calibration,
-    options: &CalibrateOptions,
-    readings: &mut Vec<ChannelReadings>,
-    watch: &Watch<'_>,
-) -> Result<Option<MeasuredBeam>, CalibrateError> {
-    let Some(reference) = &calibration.reference else { return Ok(None) };
-    let light = substitution::light(calibration, reference, &options.stop, options.seed, watch)?;
-    let channels = calibration.bench.instruments[0].sensor.channels.len();
-    let given = (readings.len() > channels).then(|| readings.remove(channels));
-    let read = given.unwrap_or_else(|| substitution::simulated(calibration, reference, &light, options.seed));
-    Ok(Some(substitution::measured(reference, &light, read)?))
-}
-
-/// The spectra at these powers over nominal power.
-fn at_power(spectra: &[(String, Density)], powers: &[f64]) -> Result<Vec<(String, Density)>, SpectrumError> {
-    spectra.iter().zip(powers).map(|((label, light), power)| Ok((label.clone(), light.scaled(*power)?))).collect()
-}
-
-/// Causes that move all readings together move the curve by `gain · (share ∘ readings)`.
-fn add_shared(curve: &mut FittedCurve, readings: &Readings, shared: &[Vec<f64>]) {
-    for shares in shared {
-        let moved = nalgebra::DVector::from_iterator(readings.values.len(), readings.values.iter().zip(shares).map(|(y, r)| y * r));
-        let by = &curve.gain * moved;
-        curve.structure.ger(1.0, &by, &by, 1.0);
-    }
 }
 
 /// Derivatives of the quantity of this name, a channel each.
@@ -295,15 +278,28 @@ fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f
     }
 }
 
-/// Readings per unit of what the geometry factor multiplies; how well the power of the beam is known is a part of their uncertainty.
-fn per_factor(readings: &ChannelReadings, factor: f64, beam: Option<&MeasuredBeam>) -> Readings {
-    let power = |i: usize| beam.and_then(|beam| beam.relative_uncertainties.get(i)).copied().unwrap_or(0.0);
-    let all = readings.values.iter().zip(&readings.standard_uncertainties).enumerate();
-    Readings {
-        channel: readings.channel.clone(),
-        values: readings.values.iter().map(|y| y / factor).collect(),
-        standard_uncertainties: all.map(|(i, (y, u))| u.hypot(y * power(i)) / factor).collect(),
+/// The model of the file, as the fit takes it.
+fn model(given: &CurveModel) -> Model {
+    match given {
+        CurveModel::Smooth => Model::Smooth,
+        CurveModel::SumOfGaussians(n) => Model::SumOfGaussians(*n),
+        CurveModel::FilterOnDetector(detector) => Model::FilterOnDetector(detector.clone()),
+        CurveModel::DilutePigment => Model::VisualPigment(OpticalDensity::Dilute),
+        CurveModel::Pigment(density) => Model::VisualPigment(OpticalDensity::Known(*density)),
+        CurveModel::PigmentOfUnknownDensity => Model::VisualPigment(OpticalDensity::Fitted),
     }
+}
+
+/// Readings that contradict the rest, told in the unit of the readings.
+fn in_units_of_readings(mut channel: CalibratedChannel, factor: f64) -> CalibratedChannel {
+    channel.per_irradiance = factor;
+    let consistency = &mut channel.curve.consistency;
+    for outlier in &mut consistency.outliers {
+        outlier.reading *= factor;
+        outlier.expected *= factor;
+    }
+    consistency.contradictions.iter_mut().flat_map(|c| &mut c.readings).for_each(|y| *y *= factor);
+    channel
 }
 
 fn channel(
@@ -329,6 +325,7 @@ fn channel(
     Ok(CalibratedChannel {
         unit: curve_unit(&readings.measurand),
         standard_uncertainties: curve.standard_uncertainties().iter().zip(&curve.values).map(|(u, s)| u.hypot(scale * s)).collect(),
+        simultaneous: simultaneous::factor(curve, scale, &|k| curve.undetermined[k] <= UNDETERMINED, SIMULTANEOUS, seed),
         truth: truth.map(on_nodes),
         outside,
         unseen_nm: ranges(nodes, &curve.undetermined),

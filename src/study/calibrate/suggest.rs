@@ -1,8 +1,12 @@
-//! Which further exposure helps most: the one that takes most from the variance of the curve.
+//! Which further exposure helps most: the one that takes most from the expected error of the curve.
 //!
 //! ```text
 //! C′ = C − C a aᵀ C / (u² + aᵀ C a)            gain = |C a|² / (u² + aᵀ C a)      = tr C − tr C′
 //! ```
+//!
+//! C is the covariance that is expected of the error under the fitted curve as a prior ([`FittedCurve::expected`](crate::calibration::FittedCurve::expected)):
+//! where the curve is small there is little to find. It counts the readings twice, so it is smaller than the stated uncertainty; but it is what
+//! the choice goes by, and so what is told.
 //!
 //! One after the other (greedy): each next one is chosen with the ones before it taken. A reading that has not been taken is expected to be as noisy as
 //! the readings that have been: the median of their relative uncertainties.
@@ -18,7 +22,7 @@ pub struct Suggestion {
     pub label: String,
     /// Its index among the candidates.
     pub index: usize,
-    /// Before it: root of the mean variance of the curves over their peak, or the standard uncertainty of the quantity that is wanted.
+    /// Before it: the expected error of the curves over their peak, root mean square over the nodes, or that of the quantity that is wanted.
     pub before: f64,
     /// After it and those before it in the list.
     pub after: f64,
