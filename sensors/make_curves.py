@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the synthetic curves of the meters in this folder. Formulas only, no measured data.
 
-    python3 sensors/make_curves.py            # writes the folders class-l, class-a, class-b, class-c, silicon, par, uv, directional-phi
+    python3 sensors/make_curves.py            # writes the folders class-l, class-a, class-b, class-c, silicon, trap, par, uv, directional-phi
     python3 sensors/make_curves.py --check    # fails if a file is not what this script writes
 
 class-b/responsivity.csv     s(λ) = V(600 + (λ − 600 + 1)/1.03) + 0.01 exp(−½((λ − 447)/19)²) + 0.005 exp(−½((λ − 700)/18)²)
@@ -10,6 +10,8 @@ class-b/directional.csv      R(θ) = 1 + 0.025 sin²(2θ) − 0.16 (θ/90°)⁶
 class-l, class-a, class-c    silicon behind layers of absorbing glass (`GLASS`), and R(θ) = 1 + a sin²(2θ) − b (θ/90°)⁶ (`DIFFUSER`)
 silicon/responsivity.csv     s(λ) = λ/(hc/e) (1 − 0.3) exp(−α d) (1 − exp(−α w)), d = 10 nm dead layer, w = 200 µm; α(λ) of silicon at 300 K by
                              K. Rajkanan, R. Singh, J. Shewchun, Solid-State Electronics 22 (1979) 793
+trap/responsivity.csv        three such photodiodes that reflect onto each other: of the light 0.3⁵ leaves after five reflections, so that
+                             s(λ) = λ/(hc/e) (1 − 0.3⁵) exp(−α d) (1 − exp(−α w)); the internal quantum deficiency is that of one
 par/responsivity.csv         the same silicon behind a glass that makes it count photons, with edges at 402 nm and 698 nm
 uv/erythema.csv              ISO/CIE 17166: 1 to 298 nm, 10^(0.094 (298 − λ)) to 328 nm, 10^(0.015 (140 − λ)) to 400 nm
 directional-phi/response.csv R(θ, φ) = (1 + 0.05 (θ/90°) cos φ − 0.02 (θ/90°)² cos 2φ) (1 − 0.1 (θ/90°)⁴)
@@ -76,6 +78,11 @@ def silicon_a_w(nm):
     """Photodiode of silicon: 30 % reflected, 10 nm dead, 200 µm deep."""
     alpha = absorption_per_cm(nm)
     return nm / HC_EV_NM * 0.7 * math.exp(-alpha * 1e-6) * -math.expm1(-alpha * 0.02)
+
+
+def trap_a_w(nm):
+    """Trap detector: five reflections at photodiodes as above, so that 0.3⁵ = 0.24 % of the light is lost."""
+    return silicon_a_w(nm) / (1 - 0.3) * (1 - 0.3**5)
 
 
 def glass(nm, long_pass, short_pass, bands=(), leak=0.0):
@@ -212,6 +219,17 @@ def files():
     yield "silicon/responsivity.csv", text(
         {"name": "Synthetic silicon photodiode", **a_w, "range": "300-1150", "step": "5", "source": detector, "f1_prime": f"{100 * f1_prime(bare):.2f} %"},
         ["wavelength_nm,s"] + [f"{nm:g},{s:g}" for nm, s in bare.items()],
+    )
+    trap = {nm: float(f"{trap_a_w(nm):.6g}") for nm in nms}
+    yield "trap/responsivity.csv", text(
+        {
+            "name": "Synthetic trap detector of silicon photodiodes",
+            **a_w,
+            "range": "300-1150",
+            "step": "5",
+            "source": detector.replace("30 % reflected", "five reflections of 30 %: 0.24 % lost"),
+        },
+        ["wavelength_nm,s"] + [f"{nm:g},{s:g}" for nm, s in trap.items()],
     )
     for letter, layers in GLASS.items():
         raw = {nm: silicon_a_w(nm) * glass(nm, **layers) for nm in nms}

@@ -10,7 +10,7 @@
 //! | T₀, T₁ | irradiance per unit of source, with the test surface black, and what a white one adds | the ray engine, once for all exposures of a pose |
 //! | ρᵢ | reflectance of the patch | the calibration file |
 //! | s | responsivity of the channel times its scale | the sensor |
-//! | δ | error of the irradiance scale, the same for all readings | drawn from its stated uncertainty |
+//! | δ | error of the irradiance scale, the same for all readings; with a reference the unknown power of the beam | drawn from its stated uncertainty; the file |
 //! | g | 1, the area of the aperture, or one over its projected solid angle | what the channel reads |
 //!
 //! Light is linear, so one tracing serves every spectrum. Where every surface reflects alike at all wavelengths T is a number and the
@@ -70,6 +70,15 @@ pub enum CampaignError {
     Spectrum(SpectrumError),
     /// No light reaches the sensor in a pose.
     Dark(usize),
+    /// The reading of the reference is too uncertain to scale another by.
+    Reference {
+        /// The exposure.
+        exposure: String,
+        /// What it reads.
+        value: f64,
+        /// The standard uncertainty of that.
+        standard_uncertainty: f64,
+    },
 }
 
 impl std::fmt::Display for CampaignError {
@@ -78,6 +87,11 @@ impl std::fmt::Display for CampaignError {
             Self::Plan(e) => e.fmt(f),
             Self::Estimate(e) => e.fmt(f),
             Self::Spectrum(e) => e.fmt(f),
+            Self::Reference { exposure, value, standard_uncertainty: u } => write!(
+                f,
+                "the reference reads {value:.3e} ± {u:.1e} in exposure \"{exposure}\", which gives no scale; allowed: above ten times its \
+                 uncertainty; leave the exposure out, or give it more light"
+            ),
             Self::Dark(pose) => {
                 write!(f, "no light of the bench's source reaches the sensor in pose {pose}; see `etendue measure` with the bench's scene")
             }
@@ -208,9 +222,10 @@ pub fn geometry_factor(sensor: &Sensor, channel: &Channel) -> f64 {
 pub fn simulated(calibration: &Calibration, spectra: &[(String, Density)], seed: u64) -> Vec<ChannelReadings> {
     let sensor = &calibration.bench.instruments[0].sensor;
     let scale = 1.0 + calibration.scale_uncertainty * normal(seed, &[SCALE_STREAM]);
+    let power = |i: usize| calibration.reference.as_ref().map_or(1.0, |r| r.beam.power(i, calibration.exposures.len()));
     let channels = sensor.channels.iter().enumerate().map(|(c, channel)| {
         let (curve, g) = (sought(channel), geometry_factor(sensor, channel));
-        let truths: Vec<f64> = spectra.iter().map(|(_, light)| scale * g * light.integral(&[&curve])).collect();
+        let truths: Vec<f64> = spectra.iter().enumerate().map(|(i, (_, light))| scale * power(i) * g * light.integral(&[&curve])).collect();
         let u: Vec<f64> = truths.iter().map(|y| calibration.noise.standard_uncertainty(*y, calibration.repeats)).collect();
         ChannelReadings {
             channel: channel.name.clone(),

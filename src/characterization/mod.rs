@@ -12,8 +12,9 @@
 //! | `emva/` | the figures of EMVA 1288 | frames of a camera |
 //! | `traced_field` | photons and electrons of the pixels in a flat field | a camera in a scene |
 //! | `sheet/` | all of them for one sensor, each by both routes | a sensor |
+//! | `substitution` | the light of a calibration bench, measured by a reference detector | a detector in A/W |
 //! | `campaign` | readings of a calibration bench, simulated | a sensor |
-//! | `readings_table` | readings of a laboratory, read | a table |
+//! | `readings_table`, `readings_text` | readings of a laboratory, read | a table |
 //!
 //! Indices are pure functions on curves and frames. What could not be checked against the text of the defining standards (ISO/CIE 19476, CIE S 023,
 //! DIN 5032-7) is an input there, and each file says so.
@@ -28,8 +29,10 @@ pub mod head_mismatch;
 pub mod linearity;
 pub mod out_of_band;
 pub mod readings_table;
+mod readings_text;
 pub mod sheet;
 pub mod spectral_mismatch;
+pub mod substitution;
 pub mod traced_field;
 
 pub use figure::Figure;

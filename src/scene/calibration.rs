@@ -1,6 +1,9 @@
 //! A calibration campaign: a bench, what is put in front of the sensor, how noisy its readings are, and where the curve is sought.
 
+use std::sync::Arc;
+
 use super::Scene;
+use crate::sensor::Sensor;
 use crate::spectrum::{Density, Factor};
 
 /// One reading to be taken: light of one spectrum, in one pose of the instrument.
@@ -33,6 +36,38 @@ impl Noise {
     pub fn standard_uncertainty(&self, value: f64, repeats: u32) -> f64 {
         let times = if self.dark.is_some() { 2f64 } else { 1.0 };
         (self.relative * value).hypot(times.sqrt() * self.absolute) / f64::from(repeats.max(1)).sqrt()
+    }
+}
+
+/// A detector of known responsivity that is read in the place of the sensor, in each exposure: the light is measured and need not be known.
+#[derive(Clone, Debug)]
+pub struct Substitution {
+    /// The detector; one channel in A/W, with its standard uncertainty.
+    pub sensor: Arc<Sensor>,
+    /// How its readings scatter; repeated as often as those of the sensor.
+    pub noise: Noise,
+    /// Relative standard uncertainty of the place: both detectors in the same part of the beam. Common to all readings.
+    pub alignment: f64,
+    /// Relative standard deviation of the beam from the one reading to the other, independent in each exposure.
+    pub stability: f64,
+    /// What the beam is when readings are simulated.
+    pub beam: Beam,
+}
+
+/// By how much a simulated beam differs from what its file says; the fit is not told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beam {
+    /// Power over nominal power in the first exposure.
+    pub factor: f64,
+    /// Relative change of the power until the last exposure, steady.
+    pub drift: f64,
+}
+
+impl Beam {
+    /// Power over nominal power in exposure `index` of `count`.
+    #[must_use]
+    pub fn power(&self, index: usize, count: usize) -> f64 {
+        self.factor * (1.0 + self.drift * index as f64 / count.saturating_sub(1).max(1) as f64)
     }
 }
 
@@ -73,6 +108,8 @@ pub struct Calibration {
     pub repeats: u32,
     /// Standard uncertainty of the irradiance scale, as a share: common to all readings.
     pub scale_uncertainty: f64,
+    /// The detector that measures the light, if there is one.
+    pub reference: Option<Substitution>,
     /// What the curve is taken to be.
     pub model: CurveModel,
     /// Nodes of the curve, nm, rising.

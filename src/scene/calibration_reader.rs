@@ -19,6 +19,7 @@
 //! | `noise` | `relative`, a share of the reading; `absolute` and `dark` in the unit of the reading |
 //! | `repeats` | readings of each exposure, averaged; 1 |
 //! | `scale_uncertainty` | relative standard uncertainty of the irradiance, common to all readings; 0 |
+//! | `reference` | a detector of known responsivity that measures the light (`substitution_reader.rs`) |
 //! | `curve` | nodes of the fitted curve |
 //! | `model` | what the curve is taken to be (`curve_model_reader.rs`); any smooth curve |
 //! | `lamps` | for which the reading with the fitted curve is propagated; `["A", "D65"]` |
@@ -37,10 +38,11 @@ use super::reader::read_scene_document;
 use super::reading::Reading;
 use super::sensor_reader::read_sensor;
 use super::spectrum_reader::read_spectrum;
+use super::substitution_reader::read_reference;
 use crate::naming::suggestion;
 use crate::spectrum::{Density, library};
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "title",
     "bench",
     "sensor",
@@ -50,6 +52,7 @@ const KEYS: [&str; 12] = [
     "noise",
     "repeats",
     "scale_uncertainty",
+    "reference",
     "curve",
     "model",
     "lamps",
@@ -105,6 +108,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Calibrati
     let repeats = number("repeats", 1.0, "whole numbers, 1 to 1e6", |x| x.fract() == 0.0 && (1.0..=1e6).contains(&x), reading);
     let scale = number("scale_uncertainty", 0.0, "0 to 1, a share", |x| (0.0..=1.0).contains(&x), reading);
     let lamps = read_lamps(fields.get("lamps"), reading);
+    let reference = read_reference(&fields, reading);
     let (bench, test_surface) = bench?;
     let offer =
         Bench { power: bench.sources[0].density.total(), poses: bench.instruments[0].poses.len(), test_surface: test_surface.is_some() };
@@ -125,6 +129,7 @@ fn read_document(document: &Document, reading: &mut Reading) -> Option<Calibrati
         noise: noise?,
         repeats: repeats? as u32,
         scale_uncertainty: scale?,
+        reference: reference?,
         model: model?,
         nodes_nm,
         lamps: lamps?,
@@ -213,7 +218,7 @@ fn check_labels(items: &[Value], found: &[Vec<Exposure>], reading: &mut Reading)
     all_differ
 }
 
-fn read_noise(value: &Value, reading: &mut Reading) -> Option<Noise> {
+pub(super) fn read_noise(value: &Value, reading: &mut Reading) -> Option<Noise> {
     let before = reading.problems.count();
     let fields = value.fields("the noise", &["relative", "absolute", "dark"], &mut reading.problems)?;
     let problems = &mut reading.problems;

@@ -18,7 +18,7 @@
 //! | `pixel_reader` | camera pixels |
 //! | `responsivity_reader`, `readout_reader` | their curves with units and uncertainties, their electronics |
 //! | `reader` | the scene as a whole |
-//! | `calibration`, `calibration_reader`, `exposure_reader`, `curve_model_reader` | calibration files: a bench and what is put in front of the sensor |
+//! | `calibration`, `calibration_reader`, `exposure_reader`, `curve_model_reader`, `substitution_reader` | calibration files: a bench and what is put in front of the sensor |
 //! | `checks` | what only the scene as a whole can show |
 
 mod acceptance_reader;
@@ -56,12 +56,13 @@ mod source_reader;
 pub mod spectrum_argument;
 mod spectrum_reader;
 mod strength;
+mod substitution_reader;
 mod surface_reader;
 mod syntax;
 #[cfg(test)]
 mod tests;
 
-pub use calibration::{Calibration, CurveModel, Exposure, Noise};
+pub use calibration::{Beam, Calibration, CurveModel, Exposure, Noise, Substitution};
 pub use calibration_reader::read_calibration;
 pub use camera::{PlacedCamera, Region};
 pub use device::{Device, characterised_from_file, device_from_file, held_by, sensor_from_file};

@@ -55,6 +55,15 @@ pub(super) fn decide(text: &str, separator: Separator) -> Commas {
     }
 }
 
+/// Commas that may be decimal ones or separators of thousands in a table whose columns a semicolon or a tab separates: line, column, message, help.
+pub(crate) fn unclear(text: &str, separator: char) -> Option<(usize, usize, String, String)> {
+    let separator = if separator == ';' { Separator::Semicolon } else { Separator::Tab };
+    match decide(text, separator) {
+        Commas::Decimal => None,
+        Commas::Unclear(line, column, message, help) => Some((line, column, message, help)),
+    }
+}
+
 enum Kind {
     /// A number without comma or point, or no number.
     Other,

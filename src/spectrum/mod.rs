@@ -35,7 +35,7 @@
 
 pub mod black_body;
 pub mod daylight;
-mod decimal_comma;
+pub(crate) mod decimal_comma;
 mod density;
 mod error;
 mod factor;

@@ -72,13 +72,16 @@ fn regular_file(path: &Path, most_bytes: u64) -> Result<Vec<u8>, FileProblem> {
 
 /// The text of a file that whoever runs the program named.
 pub(crate) fn text(path: &str, most_bytes: u64) -> Result<String, Failure> {
-    let bytes = Anywhere.read(path, most_bytes).map_err(|problem| match problem {
+    String::from_utf8(bytes_of(path, most_bytes)?)
+        .map_err(|error| Failure::Input(format!("error: {path}: byte {} is no UTF-8", error.utf8_error().valid_up_to() + 1)))
+}
+
+fn bytes_of(path: &str, most_bytes: u64) -> Result<Vec<u8>, Failure> {
+    Anywhere.read(path, most_bytes).map_err(|problem| match problem {
         FileProblem::Missing => Failure::Input(format!("error: there is no file {path}")),
         FileProblem::TooLong { bytes } => Failure::Input(format!("error: {path} has {bytes} bytes; allowed: {most_bytes}")),
         FileProblem::Unreadable(why) => Failure::Input(format!("error: cannot read {path}: {why}")),
-    })?;
-    String::from_utf8(bytes)
-        .map_err(|error| Failure::Input(format!("error: {path}: byte {} is no UTF-8", error.utf8_error().valid_up_to() + 1)))
+    })
 }
 
 fn names_beside(path: &str) -> Vec<String> {
@@ -130,7 +133,12 @@ pub(crate) fn calibration(path: &str, root: Option<&str>) -> Result<Calibration,
 /// Reads the readings of a laboratory for a calibration.
 pub(crate) fn readings(path: &str, calibration: &Calibration) -> Result<Vec<ChannelReadings>, Failure> {
     const LONGEST: u64 = 64 << 20;
-    let text = text(path, LONGEST)?;
+    let bytes = bytes_of(path, LONGEST)?;
+    // Instruments write `°` and `µ` as bytes of their own: those of Latin-1 are the first characters of Unicode.
+    let text = String::from_utf8(bytes).unwrap_or_else(|error| {
+        complain(&format!("note: {path} is no UTF-8 text, and is read as Latin-1"));
+        error.into_bytes().into_iter().map(char::from).collect()
+    });
     readings_from_csv(path, &text, calibration).map_err(|problems| Failure::Input(problems.to_string()))
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::calibration::propagation;
+use crate::characterization::campaign::ChannelReadings;
 use crate::spectrum::file::{Meaning, write_csv};
 use crate::spectrum::{Outside, SpectrumError, Table};
 use crate::study::calibrate::{Calibrated, CalibratedChannel};
@@ -69,15 +70,17 @@ pub fn covariance_root_to_csv(calibrated: &Calibrated, channel: &CalibratedChann
 pub fn readings_to_csv(calibrated: &Calibrated) -> String {
     let quoted = |name: &str| if name.contains([',', '"', '\n']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() };
     let mut text = "exposure".to_owned();
-    for c in &calibrated.channels {
-        let unit = c.readings.measurand.unit();
-        text.push_str(&format!(",{0} ({unit}),u({0}) ({unit})", quoted(&c.readings.channel)));
+    let all: Vec<&ChannelReadings> =
+        calibrated.channels.iter().map(|c| &c.readings).chain(calibrated.beam.iter().map(|b| &b.readings)).collect();
+    for readings in &all {
+        let unit = readings.measurand.unit();
+        text.push_str(&format!(",{0} ({unit}),u({0}) ({unit})", quoted(&readings.channel)));
     }
     text.push('\n');
     for (i, label) in calibrated.labels.iter().enumerate() {
         text.push_str(&quoted(label));
-        for c in &calibrated.channels {
-            text.push_str(&format!(",{:e},{:e}", c.readings.values[i], c.readings.standard_uncertainties[i]));
+        for readings in &all {
+            text.push_str(&format!(",{:e},{:e}", readings.values[i], readings.standard_uncertainties[i]));
         }
         text.push('\n');
     }

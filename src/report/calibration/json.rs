@@ -1,6 +1,6 @@
 //! A calibration as JSON.
 //!
-//! Schema 1: `{"schema", "title", "sensor", "simulated", "seed", "prior", "wavelengths_nm", "channels": […], "suggestions": […], "remarks"}`. What
+//! Schema 1: `{"schema", "title", "sensor", "simulated", "seed", "prior", "reference", "wavelengths_nm", "channels": […], "suggestions": […], "remarks"}`. What
 //! is not known or not finite is `null`.
 
 use serde::Serialize;
@@ -22,11 +22,22 @@ struct Document<'a> {
     prior: &'a str,
     length_nm: Option<f64>,
     relative_scale_uncertainty: f64,
+    reference: Option<Reference<'a>>,
     wavelengths_nm: &'a [f64],
     exposures: &'a [String],
     channels: Vec<Channel<'a>>,
     suggestions: Vec<Suggested<'a>>,
     remarks: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Reference<'a> {
+    name: &'a str,
+    reading_unit: &'a str,
+    readings: &'a [f64],
+    reading_standard_uncertainty: &'a [f64],
+    beam_over_nominal: &'a [f64],
+    beam_relative_uncertainty: &'a [f64],
 }
 
 #[derive(Serialize)]
@@ -184,6 +195,14 @@ pub fn to_json(calibrated: &Calibrated) -> String {
         prior: &calibrated.prior.0,
         length_nm: Some(calibrated.prior.1).filter(|length| length.is_finite()),
         relative_scale_uncertainty: calibrated.scale_uncertainty,
+        reference: calibrated.beam.as_ref().map(|beam| Reference {
+            name: &beam.reference,
+            reading_unit: beam.readings.measurand.unit(),
+            readings: &beam.readings.values,
+            reading_standard_uncertainty: &beam.readings.standard_uncertainties,
+            beam_over_nominal: &beam.powers,
+            beam_relative_uncertainty: &beam.relative_uncertainties,
+        }),
         wavelengths_nm: &calibrated.nodes_nm,
         exposures: &calibrated.labels,
         channels: calibrated.channels.iter().map(channel).collect(),

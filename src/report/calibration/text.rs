@@ -33,6 +33,18 @@ pub fn to_text(calibrated: &Calibrated) -> String {
         _ => format!("curves of a model: {}", calibrated.prior.0),
     };
     let _ = writeln!(text, "{rays}; {curves}");
+    if let Some(beam) = &calibrated.beam {
+        let ends = beam.powers.iter().fold((f64::INFINITY, 0.0f64), |(low, high), p| (low.min(*p), high.max(*p)));
+        let worst = beam.relative_uncertainties.iter().fold(0.0f64, |most, u| most.max(*u));
+        let _ = writeln!(
+            text,
+            "light measured by substitution: {}; beam at {} to {} of its nominal power, each known within {} %",
+            beam.reference,
+            format_significant(ends.0, 4),
+            format_significant(ends.1, 4),
+            format_significant(100.0 * worst, 2)
+        );
+    }
     if calibrated.scale_uncertainty > TOLD_SCALE {
         let _ =
             writeln!(text, "common to all readings: {} % of the irradiance", format_significant(100.0 * calibrated.scale_uncertainty, 2));

@@ -28,6 +28,7 @@ pub fn charts(calibrated: &Calibrated) -> Result<Vec<(String, Chart)>, PlotError
     if let Some(first) = calibrated.channels.first() {
         all.push(("kernels".to_owned(), kernels(calibrated, first)));
     }
+    all.extend(super::calibration_statistics::charts(calibrated));
     Ok(all)
 }
 
@@ -37,13 +38,17 @@ fn range(calibrated: &Calibrated) -> (f64, f64) {
 }
 
 fn unseen(channel: &CalibratedChannel) -> Vec<Span> {
-    let label = |i: usize| if i == 0 { "not determined".to_owned() } else { String::new() };
+    // The widest has room for the words.
+    let width = |i: &usize| channel.unseen_nm[*i].1 - channel.unseen_nm[*i].0;
+    let widest = (0..channel.unseen_nm.len()).max_by(|a, b| width(a).total_cmp(&width(b)));
+    let label = |i: usize| if Some(i) == widest { "not determined".to_owned() } else { String::new() };
     channel.unseen_nm.iter().enumerate().map(|(i, &(from, to))| Span { label: label(i), from, to }).collect()
 }
 
 /// Channels for red, green and blue have these colours, as their names say.
-fn ink(index: usize, channel: &CalibratedChannel) -> Ink {
-    match channel.readings.channel.to_lowercase().as_str() {
+pub(super) fn ink(index: usize, channel: &CalibratedChannel) -> Ink {
+    let name = channel.readings.channel.to_lowercase();
+    match name.split_whitespace().next().unwrap_or_default() {
         "r" | "red" => Ink::Fixed([200, 50, 45]),
         "g" | "green" => Ink::Fixed([40, 140, 70]),
         "b" | "blue" => Ink::Fixed([45, 95, 200]),
@@ -128,7 +133,7 @@ pub fn fit(calibrated: &Calibrated) -> Result<Chart, PlotError> {
     highest = points.iter().fold(highest, |most, p| most.max(p.at[1]));
     let top = 1.12 * highest.max(f64::MIN_POSITIVE);
     // A band that is far wider than the curve is cut at the frame: its width is in the table.
-    bands.iter_mut().flat_map(|band| &mut band.points).for_each(|p| p[2] = p[2].min(top));
+    bands.iter_mut().flat_map(|band| &mut band.points).for_each(|p| (p[1], p[2]) = (p[1].min(top), p[2].min(top)));
     let x = Axis::linear("Wavelength λ", "nm", from, to);
     let y = Axis::linear("Spectral responsivity", &first.unit, 0.0, top);
     let origin = if calibrated.simulated { "simulated readings" } else { "readings" };

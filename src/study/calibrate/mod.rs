@@ -8,25 +8,30 @@
 //! | file | what |
 //! |---|---|
 //! | `mod.rs` | the way from a campaign to fitted channels |
+//! | `measured_light` | the light of the exposures, where a reference detector measured it |
 //! | [`propagate`] | f1′, mismatch correction and luminous responsivity, with their uncertainties |
 //! | [`range`] | readings beyond the straight range of the readout |
 //! | [`suggest`] | which further exposure helps most |
 
+mod measured_light;
 pub mod propagate;
 pub mod range;
 pub mod suggest;
 
 use std::fmt;
 
+use crate::calibration::evidence::RulePoint;
 use crate::calibration::{
     CalibrationError, Exposures, FitOptions, Fitted, FittedCurve, Model, OpticalDensity, PriorKind, Readings, fit, simultaneous,
 };
 use crate::characterization::campaign::{self, CampaignError, ChannelReadings, Light};
+use crate::characterization::substitution::MeasuredBeam;
 use crate::estimate::{Stop, Watch};
 use crate::quantity::Measurand;
 use crate::scene::{Calibration, CurveModel};
 use crate::spectrum::{Density, Factor, Outside, SpectrumError, Table};
 
+use measured_light::{add_shared, at_power, beam, per_factor};
 use propagate::Propagated;
 use suggest::{Suggestion, Wanted};
 
@@ -53,7 +58,7 @@ pub struct CalibrateOptions {
     pub wanted: Wanted,
     /// When the ray engine stops.
     pub stop: Stop,
-    /// Readings of a laboratory, a channel each; simulated if there are none.
+    /// Readings of a laboratory, a channel each and then the reference, if the campaign has one; simulated if there are none.
     pub data: Option<Vec<ChannelReadings>>,
 }
 
@@ -151,10 +156,14 @@ pub struct Calibrated {
     pub nodes_nm: Vec<f64>,
     /// Relative standard uncertainty that is common to the whole curve: irradiance scale and rays.
     pub scale_uncertainty: f64,
+    /// The light, if a reference detector measured it.
+    pub beam: Option<MeasuredBeam>,
     /// The channels.
     pub channels: Vec<CalibratedChannel>,
     /// The prior that the readings speak for, in words, and its length, nm.
     pub prior: (String, f64),
+    /// What the classic rules for the smoothness look at, a channel each; empty unless one was asked for.
+    pub rule_points: Vec<Vec<RulePoint>>,
     /// What further exposures are to make more certain.
     pub wanted: Wanted,
     /// Further exposures, the best first.
@@ -175,18 +184,24 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     let light = campaign::light(calibration, &options.stop, options.seed, watch)?;
     let count = calibration.exposures.len();
     let (taken, candidates) = light.spectra.split_at(count);
-    let readings = match &options.data {
+    let mut readings = match &options.data {
         Some(data) => data.clone(),
         None => campaign::simulated(calibration, taken, options.seed),
     };
+    let beam = beam(calibration, options, &mut readings, watch)?;
     let nodes = &calibration.nodes_nm;
-    let exposures = Exposures::new(nodes, taken)?;
+    let exposures = match &beam {
+        None => Exposures::new(nodes, taken)?,
+        Some(beam) => Exposures::new(nodes, &at_power(taken, &beam.powers)?)?,
+    };
     let sensor = &calibration.bench.instruments[0].sensor;
     let factors: Vec<f64> = sensor.channels.iter().map(|c| campaign::geometry_factor(sensor, c)).collect();
-    let scaled: Vec<Readings> = readings.iter().zip(&factors).map(|(r, g)| per_factor(r, *g)).collect();
+    let scaled: Vec<Readings> = readings.iter().zip(&factors).map(|(r, g)| per_factor(r, *g, beam.as_ref())).collect();
     let options_of_fit = FitOptions { prior: prior(options, &readings, nodes), model: model(&calibration.model), ..options.fit.clone() };
-    let fitted = fit(&exposures, &scaled, &options_of_fit)?;
-    let scale_uncertainty = calibration.scale_uncertainty.hypot(light.relative_uncertainty);
+    let mut fitted = fit(&exposures, &scaled, &options_of_fit)?;
+    let rays = calibration.scale_uncertainty.hypot(light.relative_uncertainty);
+    let scale_uncertainty = beam.as_ref().map_or(rays, |beam| rays.hypot(beam.scale_uncertainty));
+    beam.iter().for_each(|beam| fitted.curves.iter_mut().zip(&scaled).for_each(|(curve, read)| add_shared(curve, read, &beam.shared)));
     let mut channels = Vec::with_capacity(readings.len());
     let mut remarks = calibration.remarks.clone();
     remarks.extend(fitted.remarks.iter().cloned());
@@ -211,7 +226,8 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     } else {
         Vec::new()
     };
-    Ok(assembled(calibration, options, &light, exposures, &fitted, channels, suggestions, scale_uncertainty, remarks))
+    let assembled = assembled(calibration, options, &light, exposures, &fitted, channels, suggestions, scale_uncertainty, remarks);
+    Ok(Calibrated { beam, ..assembled })
 }
 
 /// Derivatives of the quantity of this name, a channel each.
@@ -244,8 +260,10 @@ fn assembled(
         exposures,
         nodes_nm: calibration.nodes_nm.clone(),
         scale_uncertainty,
+        beam: None,
         channels,
         prior: (fitted.prior.clone(), fitted.length_nm),
+        rule_points: fitted.rule_points.clone(),
         wanted: options.wanted.clone(),
         suggestions,
         seed: options.seed,
@@ -273,15 +291,6 @@ fn model(given: &CurveModel) -> Model {
         CurveModel::DilutePigment => Model::VisualPigment(OpticalDensity::Dilute),
         CurveModel::Pigment(density) => Model::VisualPigment(OpticalDensity::Known(*density)),
         CurveModel::PigmentOfUnknownDensity => Model::VisualPigment(OpticalDensity::Fitted),
-    }
-}
-
-/// Readings per unit of what the geometry factor multiplies.
-fn per_factor(readings: &ChannelReadings, factor: f64) -> Readings {
-    Readings {
-        channel: readings.channel.clone(),
-        values: readings.values.iter().map(|y| y / factor).collect(),
-        standard_uncertainties: readings.standard_uncertainties.iter().map(|u| u / factor).collect(),
     }
 }
 
