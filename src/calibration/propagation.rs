@@ -53,6 +53,12 @@ pub(super) fn root_of(curve: &FittedCurve) -> DMatrix<f64> {
     low_rank::factor(curve.values.len(), &|i, j| curve.noise[(i, j)] + curve.structure[(i, j)], LEFT_OUT)
 }
 
+/// Adds a cause that moves all readings together, by `moved` for one standard uncertainty, to the covariance: `C + (G m)(G m)ᵀ`.
+pub fn add_shared(curve: &mut FittedCurve, moved: &[f64]) {
+    let by = &curve.gain * DVector::from_fn(curve.gain.ncols(), |i, _| moved.get(i).copied().unwrap_or(0.0));
+    curve.structure.ger(1.0, &by, &by, 1.0);
+}
+
 /// Draws curves as the readings leave them open.
 #[derive(Clone, Debug)]
 pub struct Sampler {

@@ -1,7 +1,7 @@
 //! The light of the exposures, as a reference detector measured it.
 
 use super::{CalibrateError, CalibrateOptions};
-use crate::calibration::{FittedCurve, Readings};
+use crate::calibration::{FittedCurve, Readings, propagation};
 use crate::characterization::campaign::ChannelReadings;
 use crate::characterization::substitution::{self, MeasuredBeam};
 use crate::estimate::Watch;
@@ -31,9 +31,8 @@ pub(super) fn at_power(spectra: &[(String, Density)], powers: &[f64]) -> Result<
 /// Causes that move all readings together move the curve by `gain · (share ∘ readings)`.
 pub(super) fn add_shared(curve: &mut FittedCurve, readings: &Readings, shared: &[Vec<f64>]) {
     for shares in shared {
-        let moved = nalgebra::DVector::from_iterator(readings.values.len(), readings.values.iter().zip(shares).map(|(y, r)| y * r));
-        let by = &curve.gain * moved;
-        curve.structure.ger(1.0, &by, &by, 1.0);
+        let moved: Vec<f64> = readings.values.iter().zip(shares).map(|(y, r)| y * r).collect();
+        propagation::add_shared(curve, &moved);
     }
 }
 
