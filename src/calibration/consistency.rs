@@ -132,7 +132,7 @@ pub(super) fn examined(exposures: &Exposures, readings: &[Readings], wanted: Out
         let few: Vec<String> = indices.iter().take(3).map(|i| format!("\"{}\"", label(exposures, *i))).collect();
         fitted.remarks.push(format!(
             "{} of {} readings contradict the rest, {} among them: so many are no outliers, and none is named; the stated uncertainties, the exposures \
-             or the model are wrong",
+             or the model are wrong, or the curve has kinks that its priors do not expect",
             indices.len(),
             exposures.len(),
             few.join(", ")

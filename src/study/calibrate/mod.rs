@@ -210,8 +210,7 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
         let found = channel(calibration, curve, readings, simulated.as_ref(), taken, scale_uncertainty, options.seed)?;
         remarks.extend(too_coarse(nodes, &found));
         if let Some(truth) = &simulated {
-            let beyond = propagate::beyond_nodes(nodes, truth, &calibration.lamps)?;
-            remarks.extend(beyond.into_iter().map(|words| format!("{}: {words}", found.readings.channel)));
+            remarks.extend(propagate::beyond_nodes(&found.readings.channel, nodes, truth, &calibration.lamps)?);
         }
         remarks.extend(range::beyond_range(sensor, &sensor.channels[c], &found.readings, exposures.labels()));
         channels.push(in_units_of_readings(found, factors[c]));

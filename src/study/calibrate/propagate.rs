@@ -17,6 +17,8 @@ use crate::spectrum::{Density, Factor, SpectrumError, library};
 
 /// Draws of the Monte Carlo check.
 pub const DRAWS: usize = 1000;
+/// Name of the light that meters are adjusted with.
+const A: &str = "A";
 /// Share of a lamp's reading from beyond the nodes that is told.
 const TOLD_BEYOND: f64 = 1e-4;
 /// Step of the sums that stand for the integral of |c s − V| in draws and derivatives, nm.
@@ -72,7 +74,7 @@ pub fn uses(
     let fitted = super::factor(nodes_nm, &curve.values)?;
     let v = library::v_lambda();
     let a = Density::illuminant_a();
-    let mut spectra = vec![("A".to_owned(), a.clone())];
+    let mut spectra = vec![(A.to_owned(), a.clone())];
     spectra.extend(lamps.iter().cloned());
     let weights = Exposures::new(nodes_nm, &spectra)?;
     let rows: Vec<Vec<f64>> = (0..weights.len()).map(|i| weights.row(i)).collect();
@@ -119,11 +121,12 @@ pub fn uses(
     Ok(drawn(curve, quantities, scale, seed))
 }
 
-/// Lamps under which the true curve reads something from beyond the nodes, in words: F* and s_v do not hold that, nor does their uncertainty.
+/// Lamps under which the true curve of a channel reads something from beyond the nodes, in words: F* and s_v do not hold that, nor does their
+/// uncertainty. The light of A counts for the F* of every lamp.
 ///
 /// # Errors
 /// Nodes that are no band.
-pub fn beyond_nodes(nodes_nm: &[f64], truth: &Factor, lamps: &[(String, Density)]) -> Result<Vec<String>, SpectrumError> {
+pub fn beyond_nodes(channel: &str, nodes_nm: &[f64], truth: &Factor, lamps: &[(String, Density)]) -> Result<Vec<String>, SpectrumError> {
     let (from, to) = (nodes_nm[0], nodes_nm[nodes_nm.len() - 1]);
     let within = Factor::band(from, to, 1.0)?;
     let share = |lamp: &Density| 1.0 - lamp.integral(&[truth, &within]) / lamp.integral(&[truth]);
@@ -131,12 +134,15 @@ pub fn beyond_nodes(nodes_nm: &[f64], truth: &Factor, lamps: &[(String, Density)
         let share = share(lamp);
         (share > TOLD_BEYOND).then(|| {
             format!(
-                "{:.2} % of the reading under {name} comes from outside of {from} nm to {to} nm, which its F* and s_v and their uncertainties leave out; widen `curve`",
-                100.0 * share
+                "{channel}: {:.2} % of the reading under {name} comes from outside of {from} nm to {to} nm, which {} and their uncertainties leave out; widen `curve`",
+                100.0 * share,
+                if name == A { "the F* of all lamps" } else { "its F* and s_v" }
             )
         })
     };
-    Ok(lamps.iter().filter_map(of).collect())
+    let adjusted_with = (A.to_owned(), Density::illuminant_a());
+    let others = lamps.iter().filter(|(name, _)| name != A);
+    Ok(others.chain((!lamps.is_empty()).then_some(&adjusted_with)).filter_map(of).collect())
 }
 
 /// Linear propagation and draws of all quantities.
