@@ -13,6 +13,8 @@ fn quick(sweep: &Sweep, point: &Point) -> bool {
     match sweep.name {
         "reflectance" => point.series != "paths" || point.parameter >= 1e-3,
         "sources" | "instruments" | "lines" => point.parameter <= 1e3,
+        "fit-exposures" => point.parameter <= 80.0,
+        "fit-noise" => point.series == "LEDs" || point.series == "broad, 60 nm",
         _ => point.series != "fan" || point.parameter <= 100.0,
     }
 }
@@ -24,7 +26,14 @@ fn no_row_of_any_sweep_is_wrong() {
         let wrong: Vec<_> = result.wrong().collect();
         assert!(wrong.is_empty(), "{}: {wrong:#?}", sweep.name);
         assert!(result.rows.len() >= 5, "{}", sweep.name);
-        assert!(result.rows.iter().all(|row| row.judgement != Judgement::Told || row.note.starts_with("error: ")), "{}", sweep.name);
+        assert!(
+            result
+                .rows
+                .iter()
+                .all(|row| row.judgement != Judgement::Told || row.note.starts_with("error: ") || sweep.name.starts_with("fit-")),
+            "{}",
+            sweep.name
+        );
     }
 }
 
@@ -32,6 +41,7 @@ fn no_row_of_any_sweep_is_wrong() {
 fn only_what_has_no_reading_is_told() {
     let told: Vec<(&str, &str, f64)> = SWEEPS
         .iter()
+        .filter(|sweep| !sweep.name.starts_with("fit-"))
         .flat_map(|sweep| swept(sweep, |point| quick(sweep, point)).rows.into_iter().map(|row| (sweep.name, row)))
         .filter(|(_, row)| row.judgement == Judgement::Told)
         .map(|(name, row)| (name, row.series, row.parameter))
@@ -52,7 +62,7 @@ fn disturbed(points: fn() -> Vec<Point>, share: f64) -> Vec<Point> {
             Reference::Values { values: values.into_iter().map(|v| v * (1.0 + share)).collect(), relative }
         }
         Reference::Law { scene, factor, relative } => Reference::Law { scene, factor: factor * (1.0 + share), relative },
-        Reference::Refused => Reference::Refused,
+        other => other,
     };
     points().into_iter().map(|point| Point { reference: change(point.reference.clone()), ..point }).collect()
 }

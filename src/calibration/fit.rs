@@ -153,6 +153,8 @@ pub fn fit(exposures: &Exposures, readings: &[Readings], options: &FitOptions) -
             ));
         }
     }
+    let said: Vec<String> = fitted.curves.iter().zip(readings).flat_map(|(curve, readings)| super::remarks::of(curve, readings)).collect();
+    fitted.remarks.extend(said);
     Ok(fitted)
 }
 

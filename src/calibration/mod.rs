@@ -31,6 +31,7 @@ pub mod non_negative;
 pub mod posterior;
 pub mod prior;
 pub mod propagation;
+mod remarks;
 pub mod suggestion;
 
 pub use error::CalibrationError;

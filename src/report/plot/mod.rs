@@ -21,7 +21,7 @@
 //! | `sample` | points of a function, colours along an axis |
 //! | `sensor`, `polar` | responsivity and directional response of sensors |
 //! | `wavelength_colour` | colours of wavelengths, smooth to the eye |
-//! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody`, `convergence`, `calibration` | a plot each |
+//! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody`, `convergence`, `campaign`, `calibration` | a plot each |
 //!
 //! ```
 //! use etendue::report::plot::{self, Size, Style, Theme};
@@ -35,6 +35,7 @@
 mod axis;
 pub mod blackbody;
 pub mod calibration;
+pub mod campaign;
 mod canvas;
 pub mod chart;
 pub mod chromaticity;

@@ -8,6 +8,8 @@ use crate::study::stability::{Row, SweepResult};
 
 /// Lowest deviation that is drawn.
 const LOWEST: f64 = 1e-17;
+/// Nodes that may be outside of their 99 % bands, %.
+const MOST_OUTSIDE: f64 = 5.0;
 
 /// Relative deviation of each series; dotted, the expanded uncertainty that its readings state. `None` without two readings.
 #[must_use]
@@ -33,6 +35,18 @@ pub fn times(result: &SweepResult) -> Option<Chart> {
     let mut chart = drawn(result, "Time", "Time", "s", |row| Some(row.seconds.max(1e-7)))?;
     fit_y(&mut chart);
     Some(chart)
+}
+
+/// Share of the nodes that are outside of their 99 % bands, and what is allowed. `None` without two fits.
+#[must_use]
+pub fn outside(result: &SweepResult) -> Option<Chart> {
+    let share = |row: &Row| row.inside.map(|inside| 100.0 * (1.0 - inside));
+    let mut chart = drawn(result, "Nodes outside of their 99 % bands", "Nodes outside", "%", share)?;
+    let most = chart.curves.iter().flat_map(|c| c.points.iter().map(|p| p[1])).fold(0.0f64, f64::max);
+    chart.y = Axis::linear("Nodes outside", "%", 0.0, most.max(MOST_OUTSIDE) + 1.0);
+    let ends = [chart.x.from, chart.x.to].map(|x| [x, MOST_OUTSIDE]);
+    chart.curves.push(Curve::new("allowed", ends.to_vec(), Ink::Text).dashed(Dash::Dashed));
+    (chart.curves.iter().map(|c| c.points.len()).sum::<usize>() > 2).then_some(chart)
 }
 
 fn names(result: &SweepResult) -> Vec<&'static str> {

@@ -238,7 +238,7 @@ fn assembled(
 }
 
 /// Cameras have a prior of their own: three channels for red, green and blue, as their names say.
-fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f64]) -> PriorKind {
+pub(super) fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f64]) -> PriorKind {
     let names: Vec<String> = readings.iter().map(|r| r.channel.to_lowercase()).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     match (&options.fit.prior, names.as_slice()) {
@@ -248,7 +248,7 @@ fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f
 }
 
 /// Readings per unit of what the geometry factor multiplies.
-fn per_factor(readings: &ChannelReadings, factor: f64) -> Readings {
+pub(super) fn per_factor(readings: &ChannelReadings, factor: f64) -> Readings {
     Readings {
         channel: readings.channel.clone(),
         values: readings.values.iter().map(|y| y / factor).collect(),
