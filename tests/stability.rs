@@ -2,6 +2,7 @@
 
 use etendue::estimate::run::with_threads;
 use etendue::report::stability::{csv, json, to_markdown, to_text};
+use etendue::study::stability::fits::Expected;
 use etendue::study::stability::{Judgement, Point, Reference, SWEEPS, Sweep, SweepResult, run};
 
 fn swept(sweep: &Sweep, keep: impl Fn(&Point) -> bool) -> SweepResult {
@@ -139,4 +140,35 @@ fn deviation_and_time_are_drawn() {
     }
     let one = swept(&SWEEPS[0], |point| point.parameter == 1.0);
     assert!(deviations(&one).is_none() && times(&one).is_none());
+}
+
+/// The condition that is stated for a row of sources is that of their weights, by singular values.
+#[test]
+fn the_condition_of_the_exposures_is_the_stated_one() {
+    let sweep = SWEEPS.iter().find(|sweep| sweep.name == "fit-condition").expect("there is one");
+    for point in (sweep.points)().into_iter().filter(|p| p.series == "noise 0" && p.parameter <= 1e11) {
+        let Reference::Fit(problem) = &point.reference else { panic!("a fit") };
+        let rows: Vec<Vec<f64>> = (0..problem.exposures.len()).map(|i| problem.exposures.row(i)).collect();
+        let s = nalgebra::DMatrix::from_fn(rows.len(), rows[0].len(), |i, k| rows[i][k]).singular_values();
+        let found = s.max() / s.min();
+        assert!((0.3..3.0).contains(&(found / point.parameter)), "{:e}: {found:e}", point.parameter);
+    }
+}
+
+/// A fit whose reference is off by a tenth is wrong, and readings that should be refused are.
+#[test]
+fn a_wrong_curve_is_found() {
+    fn off() -> Vec<Point> {
+        let sweep = SWEEPS.iter().find(|sweep| sweep.name == "fit-condition").expect("there is one");
+        let points = (sweep.points)().into_iter().filter(|p| p.series == "noise 1e-3" && p.parameter <= 1e4);
+        let wrong = |point: Point| {
+            let Reference::Fit(mut problem) = point.reference.clone() else { panic!("a fit") };
+            let Expected::Curves(truths) = &mut problem.expected else { panic!("curves") };
+            truths.iter_mut().flatten().for_each(|s| *s *= 1.1);
+            Point { reference: Reference::Fit(problem), ..point }
+        };
+        points.map(wrong).collect()
+    }
+    let result = swept(&Sweep { points: off, ..SWEEPS[14] }, |_| true);
+    assert!(!result.rows.is_empty() && result.rows.iter().all(|row| row.judgement == Judgement::Wrong), "{:#?}", result.rows);
 }

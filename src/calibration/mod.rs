@@ -16,6 +16,7 @@
 //! | [`posterior`] | curve, covariance, averaging kernels |
 //! | [`non_negative`] | the most plausible curve that is nowhere negative |
 //! | [`propagation`] | what a curve is used for, with its uncertainty |
+//! | [`refit`] | the same fit of other readings, fast: for Monte Carlo |
 //! | [`suggestion`] | what a further reading would take from the covariance |
 //! | [`error`] | why readings cannot be fitted |
 //! | [`mod@fit`] | all of it, from exposures and readings to a fitted curve |
@@ -28,13 +29,15 @@ pub mod exposures;
 pub mod fit;
 mod low_rank;
 pub mod non_negative;
+mod passes;
 pub mod posterior;
 pub mod prior;
 pub mod propagation;
+pub mod refit;
 mod remarks;
 pub mod suggestion;
 
 pub use error::CalibrationError;
 pub use exposures::{Exposures, Readings};
-pub use fit::{Chooser, FitOptions, Fitted, FittedCurve, fit};
+pub use fit::{Chooser, FitOptions, Fitted, FittedCurve, fit, warm};
 pub use prior::PriorKind;

@@ -50,7 +50,7 @@ pub fn covariance_root(curve: &FittedCurve) -> Vec<Vec<f64>> {
 }
 
 fn root_of(curve: &FittedCurve) -> DMatrix<f64> {
-    low_rank::factor(curve.values.len(), &|i, j| curve.noise[(i, j)] + curve.structure[(i, j)], LEFT_OUT)
+    low_rank::factor(curve.values.len(), &|i, j| curve.noise[(i, j)] + curve.structure[(i, j)], LEFT_OUT).columns
 }
 
 /// Draws curves as the readings leave them open.

@@ -6,8 +6,8 @@
 use super::exposures::Readings;
 use super::fit::FittedCurve;
 
-/// Standard deviations of χ² beyond which a fit does not hold.
-const MISFIT: f64 = 6.0;
+/// Roundings of a reading that a fit itself may add up to.
+const ROUNDINGS: f64 = 1e4;
 /// Standard uncertainties that a reading of nothing stays within; of 400 readings one in ten sets has one beyond.
 const NOTHING: f64 = 3.5;
 
@@ -17,8 +17,8 @@ pub(super) fn of(curve: &FittedCurve, readings: &Readings) -> Vec<String> {
     let m = readings.values.len() as f64;
     let largest = readings.values.iter().fold(0.0f64, |most, y| most.max(y.abs()));
     let without_noise = readings.standard_uncertainties.contains(&0.0);
-    if without_noise && curve.chi_squared > m + MISFIT * (2.0 * m).sqrt() {
-        let times = (curve.chi_squared / m).sqrt();
+    let times = (curve.chi_squared / m).sqrt();
+    if without_noise && times > ROUNDINGS {
         said.push(format!(
             "{}: some readings state no uncertainty, and the curve misses them by {times:.1e} times their rounding (RMS): its own uncertainty holds only for \
              readings without any error and a curve that is linear between its nodes; state the uncertainties, or give finer nodes",
