@@ -252,16 +252,17 @@ fn a_picture_is_drawn_where_there_is_something_to_draw() {
 }
 
 fn campaign(file: &str, options: &ConvergeOptions) -> CampaignConvergence {
-    let calibration = read_calibration(file, &disk::Repository, None).unwrap_or_else(|problems| panic!("{problems}"));
+    let calibration = read_calibration(file, &Repository, None).unwrap_or_else(|problems| panic!("{problems}"));
     converge_campaign(&calibration, options, &StudyWatch { now: &|| 0.0, cpu: &|| 0.0, progress: &|_| {} })
         .unwrap_or_else(|e| panic!("{e}"))
 }
 
 #[test]
 fn the_error_of_a_curve_falls_with_exposures_and_with_noise_and_is_claimed() {
-    let study = campaign("scenes/calibration/monochromator.ron", &ConvergeOptions { seeds: 2, ..ConvergeOptions::default() });
+    let study =
+        campaign("scenes/calibration/monochromator.ron", &ConvergeOptions { seeds: 2, most_samples: 4096, ..ConvergeOptions::default() });
     let [exposures, noise] = [LadderKind::Exposures, LadderKind::Noise].map(|kind| study.ladder(kind).unwrap());
-    assert!(study.ladder(LadderKind::Samples).is_none() && study.remarks.iter().any(|r| r.contains("by formulas")), "{:?}", study.remarks);
+    assert_eq!(study.ladder(LadderKind::Samples).map(|l| l.rungs.len()), Some(3));
     let counts: Vec<usize> = exposures.rungs.iter().map(|r| r.exposures).collect();
     assert_eq!(counts, [3, 6, 12, 24, 48, 81]);
     let falls = |rungs: &[CampaignRung]| rungs.last().unwrap().error < 0.1 * rungs[0].error;
@@ -272,15 +273,16 @@ fn the_error_of_a_curve_falls_with_exposures_and_with_noise_and_is_claimed() {
     for ladder in [exposures, noise] {
         let ratio = ladder.ratio.unwrap();
         assert!((0.8..5.0).contains(&ratio), "{:?}: {ratio}", ladder.kind);
-        for rung in &ladder.rungs {
-            assert!(rung.within_95 > 0.8 && rung.claimed > 0.5 * rung.error, "{rung:?}");
+        for rung in ladder.rungs.iter().filter(|r| r.told == 0) {
+            assert!(rung.within_95 > 0.7 && rung.claimed > 0.5 * rung.error, "{rung:?}");
         }
     }
 }
 
 #[test]
 fn every_form_has_every_rung_of_a_campaign() {
-    let study = campaign("scenes/calibration/three-leds.ron", &ConvergeOptions { seeds: 2, ..ConvergeOptions::default() });
+    let study =
+        campaign("scenes/calibration/three-leds.ron", &ConvergeOptions { seeds: 2, most_samples: 4096, ..ConvergeOptions::default() });
     let rungs: usize = study.ladders.iter().map(|l| l.rungs.len()).sum();
     assert!(rungs >= 8, "{rungs}");
     let report = CampaignReport { study, file: "three-leds.ron".to_owned(), threads: 1, cpu_clock: "no clock".to_owned() };
@@ -289,7 +291,7 @@ fn every_form_has_every_rung_of_a_campaign() {
     let counted: usize = json["ladders"].as_array().unwrap().iter().map(|l| l["rungs"].as_array().unwrap().len()).sum();
     assert_eq!(counted, rungs);
     let text = campaign_to_text(&report);
-    assert!(text.contains("exposures: nested") && text.contains("claimed/true") && text.contains("note: samples"), "{text}");
+    assert!(text.contains("exposures: nested") && text.contains("claimed/true") && text.contains("samples: readings of a bench"), "{text}");
 }
 
 #[test]

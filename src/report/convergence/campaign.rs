@@ -7,7 +7,7 @@ use super::text::{share, slope, time};
 use crate::metrology::rounding::format_significant;
 use crate::study::converge::campaign::{CampaignLadder, LadderKind};
 
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 12] = [
     "ladder",
     "parameter",
     "exposures",
@@ -19,6 +19,7 @@ const COLUMNS: [&str; 11] = [
     "error",
     "claimed",
     "share_within_95_percent_bands",
+    "fits_that_say_they_do_not_hold",
 ];
 
 /// The report as text.
@@ -72,10 +73,13 @@ fn write_ladder(ladder: &CampaignLadder, out: &mut String) -> std::fmt::Result {
             "  {parameter:>11} {:>11} {:>11} {:>12} {:>11} {ratio:>13} {:>13}",
             format_significant(rung.cpu_seconds, 3),
             format_significant(rung.wall_seconds, 3),
-            share(rung.error),
+            format!("{}{}", share(rung.error), if rung.told > 0 { "*" } else { "" }),
             share(rung.claimed),
             format!("{:.1} %", 100.0 * rung.within_95)
         )?;
+    }
+    if ladder.rungs.iter().any(|r| r.told > 0) {
+        writeln!(out, "  *: the fit itself says that its uncertainty means nothing there, as `etendue calibrate` would; in no slope")?;
     }
     write!(
         out,
@@ -117,6 +121,7 @@ pub fn campaign_to_csv(report: &CampaignReport) -> String {
                 rung.error.to_string(),
                 rung.claimed.to_string(),
                 rung.within_95.to_string(),
+                rung.told.to_string(),
             ]);
         }
     }

@@ -47,6 +47,7 @@ struct Rung {
     error: f64,
     claimed: f64,
     share_within_95_percent_bands: f64,
+    fits_that_say_they_do_not_hold: u64,
 }
 
 #[derive(Serialize)]
@@ -72,6 +73,7 @@ fn ladder(l: &CampaignLadder) -> Ladder {
         error: r.error,
         claimed: r.claimed,
         share_within_95_percent_bands: r.within_95,
+        fits_that_say_they_do_not_hold: r.told,
     });
     Ladder {
         kind: l.kind.name(),

@@ -90,7 +90,7 @@ pub fn chart(study: &CampaignConvergence, against: Against) -> Result<Chart, Plo
         return Err(PlotError::Nothing { what: format!("{}: fewer than two rungs", against.name()) });
     }
     let (from, to, bottom, top) = (below(x_low), above(x_high), below(y_low), above(y_high));
-    // The slope passes beside the middle of the first ladder, where it hides nothing.
+    // The slope passes above the middle of the first ladder.
     let (exponent, name) = against.slope();
     if let Some(middle) = ladders.first().and_then(|l| l.rungs.get(l.rungs.len() / 2)) {
         let (x, y) = (against.place(middle), 250.0 * middle.error.max(middle.claimed));

@@ -36,6 +36,7 @@ struct Sums {
     claimed: f64,
     within: f64,
     nodes: f64,
+    told: u64,
 }
 
 /// Climbs the ladders of a campaign.
@@ -139,7 +140,7 @@ impl<'a> Climber<'a> {
         let exposures = Exposures::new(&c.nodes_nm, known).map_err(failed)?;
         let options = FitOptions { prior: prior(&CalibrateOptions::default(), &readings, &c.nodes_nm), ..FitOptions::default() };
         let found = fit(&exposures, &scaled, &options).map_err(failed)?;
-        let mut sums = Sums::default();
+        let mut sums = Sums { told: u64::from(!found.remarks.is_empty()), ..Sums::default() };
         for (curve, channel) in found.curves.iter().zip(&sensor.channels) {
             let sought = campaign::sought(channel);
             let truth: Vec<f64> = c.nodes_nm.iter().map(|nm| sought.at(*nm)).collect();
@@ -167,6 +168,7 @@ impl<'a> Climber<'a> {
                 claimed: sums.claimed + one.claimed,
                 within: sums.within + one.within,
                 nodes: sums.nodes + one.nodes,
+                told: sums.told + one.told,
             };
             samples = taken;
             (self.watch.progress)(self.share());
@@ -180,6 +182,7 @@ impl<'a> Climber<'a> {
             error: (sums.error / sums.nodes).sqrt(),
             claimed: (sums.claimed / sums.nodes).sqrt(),
             within_95: sums.within / sums.nodes,
+            told: sums.told,
             ..of
         })
     }
@@ -196,6 +199,7 @@ impl<'a> Climber<'a> {
             error: 0.0,
             claimed: 0.0,
             within_95: 0.0,
+            told: 0,
         }
     }
 

@@ -28,6 +28,9 @@ use super::{ConvergeError, ConvergeOptions};
 use crate::scene::Calibration;
 use crate::study::StudyWatch;
 
+/// Processor times of the rungs, the longest over the shortest, from which a slope means anything.
+const TIME_RATIO: f64 = 3.0;
+
 /// What a ladder changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LadderKind {
@@ -94,6 +97,8 @@ pub struct CampaignRung {
     pub claimed: f64,
     /// Share of the nodes that lie within their 95 % bands.
     pub within_95: f64,
+    /// Fits that say that their uncertainty means nothing: of curves that bend between their nodes, say. Such rungs are in no slope.
+    pub told: u64,
 }
 
 impl CampaignRung {
@@ -115,7 +120,7 @@ pub struct CampaignLadder {
     pub error_by_parameter: Option<PowerLaw>,
     /// Claimed uncertainty against the parameter.
     pub claimed_by_parameter: Option<PowerLaw>,
-    /// True error against processor time; of noise there is none, for it takes no time.
+    /// True error against processor time; none where the rungs take hardly different times.
     pub error_by_time: Option<PowerLaw>,
     /// Claimed over true, geometric mean over the rungs.
     pub ratio: Option<f64>,
@@ -147,16 +152,19 @@ impl CampaignLadder {
         // The RMS of n independent normal errors scatters by 1/√(2n); nodes of one fit are not independent.
         let seeds = rungs.iter().map(|r| r.seeds).min().unwrap_or(1).max(1);
         let scatter = (0.5 / seeds as f64).sqrt();
+        let sound: Vec<&CampaignRung> = rungs.iter().filter(|r| r.told == 0).collect();
         let law = |x: fn(&CampaignRung) -> f64, y: fn(&CampaignRung) -> f64| {
-            let points: Vec<(f64, f64)> = rungs.iter().map(|r| (x(r), y(r))).collect();
+            let points: Vec<(f64, f64)> = sound.iter().map(|r| (x(r), y(r))).collect();
             fit(&points, scatter)
         };
-        let ratios: Vec<f64> = rungs.iter().map(|r| r.ratio().ln()).filter(|l| l.is_finite()).collect();
+        let ratios: Vec<f64> = sound.iter().map(|r| r.ratio().ln()).filter(|l| l.is_finite()).collect();
+        let seconds = || sound.iter().map(|r| r.cpu_seconds);
+        let takes_time = seconds().fold(0.0, f64::max) > TIME_RATIO * seconds().fold(f64::INFINITY, f64::min);
         CampaignLadder {
             kind,
             error_by_parameter: law(|r| r.parameter, |r| r.error),
             claimed_by_parameter: law(|r| r.parameter, |r| r.claimed),
-            error_by_time: if kind == LadderKind::Noise { None } else { law(|r| r.cpu_seconds, |r| r.error) },
+            error_by_time: if takes_time { law(|r| r.cpu_seconds, |r| r.error) } else { None },
             ratio: (!ratios.is_empty()).then(|| (ratios.iter().sum::<f64>() / ratios.len() as f64).exp()),
             rungs,
         }
