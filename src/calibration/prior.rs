@@ -117,8 +117,8 @@ impl Candidate {
     }
 }
 
-/// Share of the trace that a factor may miss: far below what double precision readings can tell.
-const LEFT_OUT: f64 = 1e-15;
+/// Share of the trace that a factor may miss where readings have no noise: what is left then is the rounding of the covariance itself.
+const LEFT_OUT: f64 = 1e-17;
 /// And at most, however noisy the readings are.
 const MOST_LEFT_OUT: f64 = 1e-9;
 /// Components of a camera's curve. With one the reference problems of a camera came out best where readings have no noise, and with two by a tenth better where
