@@ -172,3 +172,50 @@ fn a_wrong_curve_is_found() {
     let result = swept(&Sweep { points: off, ..SWEEPS[14] }, |_| true);
     assert!(!result.rows.is_empty() && result.rows.iter().all(|row| row.judgement == Judgement::Wrong), "{:#?}", result.rows);
 }
+
+/// Error and bands of a fit against condition and noise: the table of `docs/calibration.md`, and its pictures.
+#[test]
+fn the_documentation_has_the_table_of_stiffness() {
+    let sweep = SWEEPS.iter().find(|sweep| sweep.name == "fit-condition").expect("there is one");
+    let start = std::time::Instant::now();
+    let result = run(sweep, |_| true, &|| start.elapsed().as_secs_f64(), &|_| {});
+    let series: Vec<&str> = result.summary().iter().map(|failing| failing.series).collect();
+    let conditions: Vec<f64> = result.rows.iter().filter(|row| row.series == series[0]).map(|row| row.parameter).collect();
+    assert!(conditions.len() == 16 && result.wrong().next().is_none());
+    let mut table = format!("| κ | {} | a fit, ms |\n|---|{}---|\n", series.join(" | "), "---|".repeat(series.len()));
+    for condition in &conditions {
+        let of_condition: Vec<_> = result.rows.iter().filter(|row| row.parameter == *condition).collect();
+        let cell = |row: &&etendue::study::stability::Row| {
+            let percent = |share: Option<f64>| share.map_or("–".to_owned(), |x| format!("{:.1} %", 100.0 * x));
+            format!("{:.1e}, {:.2} u, {}", row.deviation.unwrap_or(f64::NAN), row.deviation_u.unwrap_or(f64::NAN), percent(row.inside))
+        };
+        let cells: Vec<String> = of_condition.iter().map(cell).collect();
+        let seconds = of_condition.iter().map(|row| row.seconds).sum::<f64>() / of_condition.len() as f64;
+        table += &format!("| {condition:.0e} | {} | {:.0} |\n", cells.join(" | "), 1e3 * seconds);
+    }
+    let docs = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let path = docs.join("calibration.md");
+    let (begin, end) = ("<!-- stiffness -->\n", "<!-- end of stiffness -->");
+    let text = std::fs::read_to_string(&path).expect("docs/calibration.md");
+    let (before, rest) = text.split_once(begin).expect("the mark of the table");
+    let (written, after) = rest.split_once(end).expect("the end of the table");
+    if std::env::var_os("ETENDUE_REWRITE_EXPECTED").is_some() {
+        std::fs::write(&path, format!("{before}{begin}{table}{end}{after}")).expect("written");
+        #[cfg(feature = "plot")]
+        draw(&result, &docs);
+        return;
+    }
+    for condition in conditions {
+        assert!(written.contains(&format!("| {condition:.0e} |")), "no row for {condition:e}: set ETENDUE_REWRITE_EXPECTED=1");
+    }
+}
+
+#[cfg(feature = "plot")]
+fn draw(result: &SweepResult, folder: &std::path::Path) {
+    use etendue::report::plot::{Size, Style, Theme, svg};
+    use etendue::report::stability::chart::{deviations, outside, times};
+    for (name, chart) in [("error", deviations(result)), ("bands", outside(result)), ("fit-time", times(result))] {
+        let drawn = svg(&chart.expect("rows"), &Style { theme: Theme::Light, size: Size::Paper }).expect("a picture");
+        std::fs::write(folder.join(format!("calibration-stiffness-{name}.svg")), drawn).expect("written");
+    }
+}
