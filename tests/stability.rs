@@ -213,8 +213,8 @@ fn the_documentation_has_the_table_of_stiffness() {
 #[cfg(feature = "plot")]
 fn draw(result: &SweepResult, folder: &std::path::Path) {
     use etendue::report::plot::{Size, Style, Theme, svg};
-    use etendue::report::stability::chart::{deviations, outside, times};
-    for (name, chart) in [("error", deviations(result)), ("bands", outside(result)), ("fit-time", times(result))] {
+    use etendue::report::stability::chart::{deviations, in_bands, times};
+    for (name, chart) in [("error", deviations(result)), ("bands", in_bands(result)), ("fit-time", times(result))] {
         let drawn = svg(&chart.expect("rows"), &Style { theme: Theme::Light, size: Size::Paper }).expect("a picture");
         std::fs::write(folder.join(format!("calibration-stiffness-{name}.svg")), drawn).expect("written");
     }

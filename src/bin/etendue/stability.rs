@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     /// Write the rows into this file and not to stdout.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Draw deviation, time and, of fits, what is outside of the bands against the parameter, an SVG picture each, into this folder.
+    /// Draw deviation, time and, of fits, errors over their uncertainties against the parameter, an SVG picture each, into this folder.
     #[cfg(feature = "plot")]
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
@@ -130,7 +130,7 @@ fn draw(folder: &Path, results: &[SweepResult]) -> Result<(), Failure> {
         let charts = [
             ("deviation", report::chart::deviations(result)),
             ("time", report::chart::times(result)),
-            ("bands", report::chart::outside(result)),
+            ("bands", report::chart::in_bands(result)),
         ];
         for (what, chart) in charts {
             let Some(chart) = chart else { continue };

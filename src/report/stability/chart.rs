@@ -8,8 +8,9 @@ use crate::study::stability::{Row, SweepResult};
 
 /// Lowest deviation that is drawn.
 const LOWEST: f64 = 1e-17;
-/// Nodes that may be outside of their 99 % bands, %.
-const MOST_OUTSIDE: f64 = 5.0;
+/// Least and largest error over uncertainty that are drawn where they belong.
+const LEAST_RATIO: f64 = 0.01;
+const MOST_RATIO: f64 = 100.0;
 
 /// Relative deviation of each series; dotted, the expanded uncertainty that its readings state. `None` without two readings.
 #[must_use]
@@ -37,16 +38,15 @@ pub fn times(result: &SweepResult) -> Option<Chart> {
     Some(chart)
 }
 
-/// Share of the nodes that are outside of their 99 % bands, and what is allowed. `None` without two fits.
+/// Errors of fitted curves over their stated uncertainties, RMS over the nodes: 1 is honest, less is cautious. `None` without two fits.
 #[must_use]
-pub fn outside(result: &SweepResult) -> Option<Chart> {
-    let share = |row: &Row| row.inside.map(|inside| 100.0 * (1.0 - inside));
-    let mut chart = drawn(result, "Nodes outside of their 99 % bands", "Nodes outside", "%", share)?;
-    let most = chart.curves.iter().flat_map(|c| c.points.iter().map(|p| p[1])).fold(0.0f64, f64::max);
-    chart.y = Axis::linear("Nodes outside", "%", 0.0, most.max(MOST_OUTSIDE) + 1.0);
-    let ends = [chart.x.from, chart.x.to].map(|x| [x, MOST_OUTSIDE]);
-    chart.curves.push(Curve::new("allowed", ends.to_vec(), Ink::Text).dashed(Dash::Dashed));
-    (chart.curves.iter().map(|c| c.points.len()).sum::<usize>() > 2).then_some(chart)
+pub fn in_bands(result: &SweepResult) -> Option<Chart> {
+    let ratio = |row: &Row| row.inside.and(row.deviation_u).map(|x| x.clamp(LEAST_RATIO, MOST_RATIO));
+    let mut chart = drawn(result, "Error over stated uncertainty", "RMS of error over u", "1", ratio)?;
+    chart.y = Axis::log("RMS of error over u", "1", LEAST_RATIO, MOST_RATIO);
+    let ends = [chart.x.from, chart.x.to].map(|x| [x, 1.0]);
+    chart.curves.push(Curve::new("as stated", ends.to_vec(), Ink::Text).dashed(Dash::Dashed));
+    Some(chart)
 }
 
 fn names(result: &SweepResult) -> Vec<&'static str> {
