@@ -94,13 +94,16 @@ fn contradictions() -> Vec<Point> {
     made(all_contradictions())
 }
 
+/// Which of the readings are changed.
+type Which = fn(usize) -> bool;
+
 fn all_contradictions() -> Result<Vec<Point>, SpectrumError> {
     let (nodes, once) = bench()?;
     let truth = lux_meter(&nodes);
     let exposures = once.subset(&(0..once.len()).flat_map(|i| [i, i]).collect::<Vec<_>>());
     let largest = exposures.expected(&truth).iter().fold(0.0f64, |most, y| most.max(*y));
     let mut points = Vec::new();
-    let series: [(&'static str, f64, fn(usize) -> bool); 3] = [
+    let series: [(&'static str, f64, Which); 3] = [
         ("one exposure of 41, noise 0.1 %", NOISE, |i| i == 37),
         ("every exposure, noise 0.1 %", NOISE, |i| i % 2 == 1),
         ("every exposure, no noise", 0.0, |i| i % 2 == 1),
