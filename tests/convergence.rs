@@ -268,14 +268,11 @@ fn the_error_of_a_curve_falls_with_exposures_and_with_noise_and_is_claimed() {
     let falls = |rungs: &[CampaignRung]| rungs.last().unwrap().error < 0.1 * rungs[0].error;
     assert!(falls(&exposures.rungs) && falls(&noise.rungs), "{study:#?}");
     // Half the noise, hardly half the error: fewer readings go into each node of a smoother curve.
-    let law = noise.error_by_parameter.unwrap();
-    assert!((0.6..1.1).contains(&law.exponent), "{law:?}");
-    for ladder in [exposures, noise] {
-        let ratio = ladder.ratio.unwrap();
-        assert!((0.8..5.0).contains(&ratio), "{:?}: {ratio}", ladder.kind);
-        for rung in ladder.rungs.iter().filter(|r| r.told == 0) {
-            assert!(rung.within_95 > 0.7 && rung.claimed > 0.5 * rung.error, "{rung:?}");
-        }
+    let exponent = (noise.rungs[0].error / noise.rungs[2].error).ln() / (noise.rungs[0].parameter / noise.rungs[2].parameter).ln();
+    assert!((0.6..1.1).contains(&exponent), "{exponent}");
+    // With the noise of the file or more, errors are claimed. Far below, the curve between its nodes is what errs, which `calibrate` tells.
+    for rung in exposures.rungs.iter().chain(&noise.rungs[..3]) {
+        assert!(rung.within_95 > 0.85 && rung.claimed > 0.7 * rung.error, "{rung:?}");
     }
 }
 
