@@ -3,7 +3,8 @@
 use std::hint::black_box;
 
 use criterion::Criterion;
-use etendue::calibration::{Exposures, FitOptions, PriorKind, Readings, fit};
+use etendue::calibration::{Exposures, FitOptions, PriorKind, Readings, fit, warm};
+use etendue::characterization::campaign::normal;
 use etendue::spectrum::{Density, Factor, Outside, Table, library};
 
 fn main() {
@@ -32,6 +33,14 @@ fn main() {
     let readings = [noisy(exposures.expected(&truth), "E_v")];
     group.bench_function("401 nodes, 80 exposures, with bands", |b| {
         b.iter(|| fit(black_box(&exposures), &readings, &FitOptions::default()).map(|f| f.length_nm));
+    });
+    let refitter = warm(&exposures, &readings, &PriorKind::Smooth).unwrap_or_else(|e| panic!("{e}"));
+    let redrawn = |draw: u64| -> Vec<f64> {
+        let both = readings[0].values.iter().zip(&readings[0].standard_uncertainties).enumerate();
+        both.map(|(i, (y, u))| y + u * normal(draw, &[i as u64])).collect()
+    };
+    group.bench_function("1000 Monte Carlo refits of the same", |b| {
+        b.iter(|| (0..1000).map(|draw| refitter.refit(&[redrawn(draw)]).map_or(f64::NAN, |curves| curves[0][200])).sum::<f64>());
     });
 
     let nodes: Vec<f64> = (380..=780).step_by(5).map(f64::from).collect();

@@ -14,11 +14,14 @@ use disk::{Repository, root};
 use etendue::estimate::closed_form::polygon::polygon_two_sided;
 use etendue::math::DVec3;
 use etendue::plan::{Plan, PlanOptions};
+use etendue::report::convergence::{CampaignReport, campaign_to_csv, campaign_to_json, campaign_to_text};
 use etendue::report::convergence::{
     ConvergenceReport, reference_from_csv, reference_from_json, reference_from_values, to_csv, to_json, to_text,
 };
+use etendue::scene::read_calibration;
 use etendue::scene::{Scene, read_scene, scene_from_text};
 use etendue::study::StudyWatch;
+use etendue::study::converge::campaign::{CampaignConvergence, CampaignRung, LadderKind, converge_campaign};
 use etendue::study::converge::{ConvergeError, ConvergeOptions, Convergence, PowerLaw, Reference, TimeTo, converge, places};
 
 fn shelf(name: &str) -> Scene {
@@ -246,4 +249,56 @@ fn a_picture_is_drawn_where_there_is_something_to_draw() {
     for text in ["slope −1/2", "slope −1", "true error", "claimed uncertainty", "Processor time"] {
         assert!(drawn.contains(text), "{text}");
     }
+}
+
+fn campaign(file: &str, options: &ConvergeOptions) -> CampaignConvergence {
+    let calibration = read_calibration(file, &Repository, None).unwrap_or_else(|problems| panic!("{problems}"));
+    converge_campaign(&calibration, options, &StudyWatch { now: &|| 0.0, cpu: &|| 0.0, progress: &|_| {} })
+        .unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn the_error_of_a_curve_falls_with_exposures_and_with_noise_and_is_claimed() {
+    let study =
+        campaign("scenes/calibration/monochromator.ron", &ConvergeOptions { seeds: 2, most_samples: 4096, ..ConvergeOptions::default() });
+    let [exposures, noise] = [LadderKind::Exposures, LadderKind::Noise].map(|kind| study.ladder(kind).unwrap());
+    assert_eq!(study.ladder(LadderKind::Samples).map(|l| l.rungs.len()), Some(3));
+    let counts: Vec<usize> = exposures.rungs.iter().map(|r| r.exposures).collect();
+    assert_eq!(counts, [3, 6, 12, 24, 48, 81]);
+    let falls = |rungs: &[CampaignRung]| rungs.last().unwrap().error < 0.1 * rungs[0].error;
+    assert!(falls(&exposures.rungs) && falls(&noise.rungs), "{study:#?}");
+    // Half the noise, hardly half the error: fewer readings go into each node of a smoother curve.
+    let exponent = (noise.rungs[0].error / noise.rungs[2].error).ln() / (noise.rungs[0].parameter / noise.rungs[2].parameter).ln();
+    assert!((0.6..1.1).contains(&exponent), "{exponent}");
+    // With the noise of the file or more, errors are claimed. Far below, the curve between its nodes is what errs, which `calibrate` tells.
+    for rung in exposures.rungs.iter().chain(&noise.rungs[..3]) {
+        assert!(rung.within_95 > 0.85 && rung.claimed > 0.7 * rung.error, "{rung:?}");
+    }
+}
+
+#[test]
+fn every_form_has_every_rung_of_a_campaign() {
+    let study =
+        campaign("scenes/calibration/three-leds.ron", &ConvergeOptions { seeds: 2, most_samples: 4096, ..ConvergeOptions::default() });
+    let rungs: usize = study.ladders.iter().map(|l| l.rungs.len()).sum();
+    assert!(rungs >= 8, "{rungs}");
+    let report = CampaignReport { study, file: "three-leds.ron".to_owned(), threads: 1, cpu_clock: "no clock".to_owned() };
+    assert_eq!(campaign_to_csv(&report).lines().count(), rungs + 1);
+    let json: serde_json::Value = serde_json::from_str(&campaign_to_json(&report)).unwrap();
+    let counted: usize = json["ladders"].as_array().unwrap().iter().map(|l| l["rungs"].as_array().unwrap().len()).sum();
+    assert_eq!(counted, rungs);
+    let text = campaign_to_text(&report);
+    assert!(text.contains("exposures: nested") && text.contains("claimed/true") && text.contains("samples: readings of a bench"), "{text}");
+}
+
+#[test]
+fn what_is_for_scenes_is_refused_for_a_calibration() {
+    let file = "scenes/calibration/three-leds.ron";
+    for option in [&["--compare-naive"][..], &["--naive"], &["--reference", "1"]] {
+        let output = etendue(&[&["converge", file], option].concat());
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && said.contains("is for scenes"), "{said}");
+    }
+    let output = etendue(&["converge", file, "--budget", "1ms"]);
+    assert!(output.status.code() == Some(2) && String::from_utf8_lossy(&output.stderr).contains("give at least"), "{output:?}");
 }

@@ -25,7 +25,7 @@ const SCALES: (f64, f64, usize) = (-3.0, 5.0, 33);
 /// Steps of the L-curve, in logarithms, below which it stands still.
 const STANDING: f64 = 1e-3;
 /// Probabilities below this share of the largest are left out.
-const NEGLIGIBLE: f64 = 1e-2;
+pub(super) const NEGLIGIBLE: f64 = 1e-2;
 
 /// Readings and weights in units of the standard uncertainties.
 pub(super) struct Whitened {
@@ -114,17 +114,17 @@ pub(super) fn weighted(trials: &[Trial]) -> Vec<(&Trial, f64)> {
     kept
 }
 
-fn normalise<T>(kept: &mut [(T, f64)]) {
+pub(super) fn normalise<T>(kept: &mut [(T, f64)]) {
     let sum: f64 = kept.iter().map(|k| k.1).sum();
     kept.iter_mut().for_each(|k| k.1 /= sum);
 }
 
-fn scales(about: f64) -> Vec<f64> {
+pub(super) fn scales(about: f64) -> Vec<f64> {
     let (low, high, count) = SCALES;
     (0..count).map(|i| about * (low + (high - low) * i as f64 / (count - 1) as f64).exp()).collect()
 }
 
-fn log_probability(a: f64, s: &DVector<f64>, z: &DVector<f64>, rest: f64) -> f64 {
+pub(super) fn log_probability(a: f64, s: &DVector<f64>, z: &DVector<f64>, rest: f64) -> f64 {
     let sum: f64 = s
         .iter()
         .zip(z.iter())
@@ -136,7 +136,7 @@ fn log_probability(a: f64, s: &DVector<f64>, z: &DVector<f64>, rest: f64) -> f64
     -0.5 * (sum + rest)
 }
 
-fn log_sum(logs: &[f64]) -> f64 {
+pub(super) fn log_sum(logs: &[f64]) -> f64 {
     let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     most + logs.iter().map(|l| (l - most).exp()).sum::<f64>().ln()
 }

@@ -16,23 +16,18 @@ use super::consistency::{self, Consistency, Outliers};
 use super::error::CalibrationError;
 use super::evidence::{ClassicRule, RulePoint, Trial, Whitened, classic_scale, rule_points, weighted};
 use super::exposures::{Exposures, Readings, lit};
-use super::non_negative::nearest;
 use super::parametric::Model;
 use super::parametric_fit::{Parametric, fit_model};
+use super::passes::{Passes, best, made_non_negative, non_negative, passes};
 use super::posterior::{self, Posterior};
-use super::prior::{self, Candidate, PriorKind, Smoothness};
+use super::prior::{self, Candidate, PriorKind};
+use super::refit::Refitter;
 use super::whitening::whitened;
 
 /// Widening of the structure variance's root.
 const STRUCTURE_FACTOR: f64 = 2.0;
-/// Where the curve is zero its ripples are as large as where it is this share of its peak.
-const ENVELOPE_FLOOR: f64 = 0.03;
-/// Lengths per factor e in the first search, and in the second about the best.
-const LENGTHS_PER_E: (f64, f64) = (2.5, 5.0);
 /// Standard deviations of χ² beyond which a fit is said not to hold.
 const MISFIT: f64 = 6.0;
-/// A search ends when ln p has fallen by this much below its best.
-const FALLEN: f64 = 12.0;
 
 /// How the smoothness is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -172,44 +167,33 @@ pub fn fit(exposures: &Exposures, readings: &[Readings], options: &FitOptions) -
             ));
         }
     }
+    let said: Vec<String> = fitted.curves.iter().zip(readings).flat_map(|(curve, readings)| super::remarks::of(curve, readings)).collect();
+    fitted.remarks.extend(said);
     Ok(fitted)
+}
+
+/// Prepares fits of further readings of the same exposures, as noisy as these: for Monte Carlo, whose thousand fits share every factorisation.
+///
+/// # Errors
+/// As [`fit`].
+pub fn warm(exposures: &Exposures, readings: &[Readings], prior: &PriorKind) -> Result<Refitter, CalibrationError> {
+    let data = whitened(exposures, readings)?;
+    let passes = passes(exposures, readings, prior, &data)?;
+    Refitter::new(passes.second, data, readings)
 }
 
 fn by_evidence(exposures: &Exposures, readings: &[Readings], kind: &PriorKind, data: &Whitened) -> Result<Fitted, CalibrationError> {
     let nodes = exposures.wavelengths_nm();
-    let first = match kind {
-        PriorKind::Smooth => search(nodes, data),
-        PriorKind::Camera { components } => {
-            prior::cameras(nodes, components, data.left_out).into_iter().filter_map(|c| Trial::new(c, data)).collect()
-        }
-    };
-    let best = best(&first)?;
-    let weights = weighted(&first);
-    let channels = readings.len();
-    let posteriors: Vec<Posterior> = (0..channels).map(|c| posterior::average(&weights, c, data)).collect();
+    let Passes { first, posteriors, second } = passes(exposures, readings, kind, data)?;
+    let (chosen, best) = (best(&second)?, best(&first)?);
     let mut remarks = Vec::new();
-    let mut envelopes = Vec::with_capacity(channels);
-    for (c, posterior) in posteriors.iter().enumerate() {
-        let curve = non_negative(posterior, best, c, data, &readings[c].channel, &mut remarks)?;
-        let peak = curve.amax();
-        envelopes.push(curve.iter().map(|s| (if peak > 0.0 { s / peak } else { 1.0 } + ENVELOPE_FLOOR).sqrt()).collect());
-    }
-    remarks.clear();
-    let untouched = prior::components_of(kind);
-    let near = |t: &Trial| (0.7 * best.candidate.length_nm..=3.0 * best.candidate.length_nm).contains(&t.candidate.length_nm);
-    let second: Vec<Trial> = first
-        .iter()
-        .filter(|t| untouched > 0 || near(t))
-        .filter_map(|t| Trial::new(prior::enveloped(&t.candidate, &envelopes, untouched), data))
-        .collect();
-    let chosen = self::best(&second)?;
     let weights = weighted(&second);
-    let mut curves = Vec::with_capacity(channels);
+    let mut curves = Vec::with_capacity(readings.len());
     for (c, first) in posteriors.into_iter().enumerate() {
         let second = posterior::average(&weights, c, data);
         let curve = non_negative(&second, chosen, c, data, &readings[c].channel, &mut remarks)?;
         let structure = first.structure.clone() * STRUCTURE_FACTOR.powi(2);
-        curves.push(fitted(&readings[c], c, &curve, second, structure, &first, untouched == 0, data));
+        curves.push(fitted(&readings[c], c, &curve, second, structure, &first, prior::components_of(kind) == 0, data));
     }
     Ok(Fitted {
         wavelengths_nm: nodes.to_vec(),
@@ -220,40 +204,6 @@ fn by_evidence(exposures: &Exposures, readings: &[Readings], kind: &PriorKind, d
         rule_points: Vec::new(),
         remarks,
     })
-}
-
-/// Smooth priors of every smoothness, from the longest length down until the readings speak against it.
-fn search(nodes: &[f64], data: &Whitened) -> Vec<Trial> {
-    let coarse = prior::lengths_nm(nodes, LENGTHS_PER_E.0);
-    let mut trials: Vec<Trial> = Vec::new();
-    let mut most = f64::NEG_INFINITY;
-    for smoothness in Smoothness::ALL {
-        let (mut own, mut at) = (f64::NEG_INFINITY, 0.0);
-        for &length_nm in coarse.iter().rev() {
-            let Some(trial) = Trial::new(prior::smooth(nodes, smoothness, length_nm, data.left_out), data) else { continue };
-            let found = trial.log_evidence;
-            if found > own {
-                (own, at) = (found, length_nm);
-            }
-            trials.push(trial);
-            if found < own - FALLEN {
-                break;
-            }
-        }
-        most = most.max(own);
-        if own > most - FALLEN {
-            for shift in [-1.0, 1.0] {
-                let length_nm = at * (shift / LENGTHS_PER_E.1).exp();
-                trials.extend(Trial::new(prior::smooth(nodes, smoothness, length_nm, data.left_out), data));
-            }
-        }
-    }
-    trials
-}
-
-fn best(trials: &[Trial]) -> Result<&Trial, CalibrationError> {
-    let best = trials.iter().max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
-    best.ok_or_else(|| CalibrationError::Numbers("no prior can be held against the readings in double precision".to_owned()))
 }
 
 fn by_rule(exposures: &Exposures, readings: &[Readings], rule: ClassicRule, data: &Whitened) -> Result<Fitted, CalibrationError> {
@@ -283,34 +233,6 @@ fn by_rule(exposures: &Exposures, readings: &[Readings], rule: ClassicRule, data
         rule_points: points,
         remarks,
     })
-}
-
-fn non_negative(
-    posterior: &Posterior,
-    best: &Trial,
-    channel: usize,
-    data: &Whitened,
-    name: &str,
-    remarks: &mut Vec<String>,
-) -> Result<DVector<f64>, CalibrationError> {
-    if posterior.mean.min() >= 0.0 {
-        return Ok(posterior.mean.clone());
-    }
-    let root = posterior::root(best, channel, best.best_scale(channel, data));
-    made_non_negative(&posterior.mean, &root, name, remarks)
-}
-
-fn made_non_negative(
-    mean: &DVector<f64>,
-    root: &DMatrix<f64>,
-    name: &str,
-    remarks: &mut Vec<String>,
-) -> Result<DVector<f64>, CalibrationError> {
-    let found = nearest(mean, root).map_err(|why| CalibrationError::Numbers(format!("no non-negative curve was found ({why})")))?;
-    if found.almost {
-        remarks.push(format!("{name}: the solver for the non-negative curve met its looser tolerances only"));
-    }
-    Ok(found.curve)
 }
 
 #[allow(clippy::too_many_arguments)]

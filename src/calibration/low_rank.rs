@@ -7,8 +7,16 @@
 
 use nalgebra::DMatrix;
 
+/// A covariance as columns, and what they miss.
+pub(super) struct Factored {
+    /// L.
+    pub(super) columns: DMatrix<f64>,
+    /// The diagonal of K − L Lᵀ: kept while factoring, for the difference itself would be rounding.
+    pub(super) missing: Vec<f64>,
+}
+
 /// Columns `L` with `trace(K − L Lᵀ) ≤ share · trace(K)`, for the covariance `k(i, j)` of `n` values.
-pub(super) fn factor(n: usize, k: &dyn Fn(usize, usize) -> f64, share: f64) -> DMatrix<f64> {
+pub(super) fn factor(n: usize, k: &dyn Fn(usize, usize) -> f64, share: f64) -> Factored {
     let mut left: Vec<f64> = (0..n).map(|i| k(i, i)).collect();
     let trace: f64 = left.iter().sum();
     let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -32,7 +40,7 @@ pub(super) fn factor(n: usize, k: &dyn Fn(usize, usize) -> f64, share: f64) -> D
         left[pivot] = 0.0;
         columns.push(column);
     }
-    DMatrix::from_fn(n, columns.len(), |i, j| columns[j][i])
+    Factored { columns: DMatrix::from_fn(n, columns.len(), |i, j| columns[j][i]), missing: left }
 }
 
 #[cfg(test)]
@@ -42,7 +50,8 @@ mod tests {
     #[test]
     fn the_product_is_the_covariance() {
         let k = |i: usize, j: usize| (-0.5 * ((i as f64 - j as f64) / 7.0).powi(2)).exp();
-        let l = factor(60, &k, 1e-14);
+        let Factored { columns: l, missing } = factor(60, &k, 1e-14);
+        assert!(missing.iter().sum::<f64>() <= 60.0 * 1e-14 && missing.iter().all(|m| *m >= 0.0));
         assert!(l.ncols() < 40, "{} columns", l.ncols());
         let product = &l * l.transpose();
         for i in 0..60 {

@@ -16,6 +16,7 @@
 //! | [`posterior`] | curve, covariance, averaging kernels |
 //! | [`non_negative`] | the most plausible curve that is nowhere negative |
 //! | [`propagation`] | what a curve is used for, with its uncertainty |
+//! | [`refit`] | the same fit of other readings, fast: for Monte Carlo |
 //! | [`simultaneous`] | the band that holds the whole curve at once |
 //! | [`suggestion`] | what a further reading would take from the covariance |
 //! | [`parametric`] | curves of few parameters: sums of Gaussians, a filter before a detector, a visual pigment |
@@ -38,9 +39,12 @@ mod low_rank;
 pub mod non_negative;
 pub mod parametric;
 pub mod parametric_fit;
+mod passes;
 pub mod posterior;
 pub mod prior;
 pub mod propagation;
+pub mod refit;
+mod remarks;
 pub mod simultaneous;
 pub mod suggestion;
 pub mod whitening;
@@ -48,6 +52,6 @@ pub mod whitening;
 pub use consistency::Outliers;
 pub use error::CalibrationError;
 pub use exposures::{Exposures, Readings};
-pub use fit::{Chooser, FitOptions, Fitted, FittedCurve, fit};
+pub use fit::{Chooser, FitOptions, Fitted, FittedCurve, fit, warm};
 pub use parametric::{Model, OpticalDensity};
 pub use prior::PriorKind;

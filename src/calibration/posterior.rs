@@ -8,7 +8,7 @@
 //!
 //! *Noise* is what other readings of the same exposures would change. *Structure* is what the readings leave open: the expected square of the
 //! bias of a smooth fit, and all of the curve where no exposure sees it. Several priors are averaged by their probabilities;
-//! how far their curves are apart is structure, too. No difference of large numbers is taken.
+//! how far their curves are apart is structure, too, and so is what the columns L miss of K. No difference of large numbers is taken.
 //!
 //! Source: Rodgers, Inverse Methods for Atmospheric Sounding (2000), 3 and 4.
 
@@ -59,7 +59,9 @@ pub(super) fn average(trials: &[(&Trial, f64)], channel: usize, data: &Whitened)
             structure += (*probability * mean_square) * (&unseen * unseen.transpose());
         }
         for k in 0..n {
-            prior_variance[k] += probability * mean_square * l.row(k).norm_squared();
+            let missing = probability * mean_square * trial.candidate.missing[k];
+            structure[(k, k)] += missing;
+            prior_variance[k] += probability * mean_square * l.row(k).norm_squared() + missing;
         }
     }
     for (p, curve) in means {

@@ -1,7 +1,7 @@
 //! What is plausible before any reading: curves that are smooth over an unknown length, of unknown scale.
 //!
 //! ```text
-//! cov s(λ), s(λ′) = a² k(|λ − λ′| / ℓ)        Matérn:  ν = 5/2, 7/2, 9/2
+//! cov s(λ), s(λ′) = a² k(|λ − λ′| / ℓ)        Matérn:  ν = 3/2, 5/2, 7/2, 9/2
 //! camera:           a² (Σⱼ bⱼ(λ) bⱼ(λ′) + q² k(|λ − λ′| / ℓ))
 //! envelope:         a² e(λ) e(λ′) k(|λ − λ′| / ℓ)
 //! ```
@@ -71,6 +71,8 @@ fn beyond_table(curve: &Factor, nm: f64) -> f64 {
 /// How many derivatives a curve has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Smoothness {
+    /// ν = 3/2: curves with corners.
+    One,
     /// ν = 5/2.
     Two,
     /// ν = 7/2.
@@ -81,12 +83,13 @@ pub enum Smoothness {
 
 impl Smoothness {
     /// All of them.
-    pub const ALL: [Smoothness; 3] = [Smoothness::Two, Smoothness::Three, Smoothness::Four];
+    pub const ALL: [Smoothness; 4] = [Smoothness::Four, Smoothness::Three, Smoothness::Two, Smoothness::One];
 
     /// Correlation at a distance of `d` lengths.
     #[must_use]
     pub fn correlation(self, d: f64) -> f64 {
         let (s, polynomial): (f64, fn(f64) -> f64) = match self {
+            Smoothness::One => (3f64.sqrt() * d, |s| 1.0 + s),
             Smoothness::Two => (5f64.sqrt() * d, |s| 1.0 + s + s * s / 3.0),
             Smoothness::Three => (7f64.sqrt() * d, |s| 1.0 + s + 0.4 * s * s + s.powi(3) / 15.0),
             Smoothness::Four => (3.0 * d, |s| 1.0 + s + 3.0 * s * s / 7.0 + 2.0 * s.powi(3) / 21.0 + s.powi(4) / 105.0),
@@ -104,6 +107,8 @@ pub(super) struct Candidate {
     pub(super) length_nm: f64,
     /// `factors[channel]`, or one for all of them.
     pub(super) factors: Vec<DMatrix<f64>>,
+    /// Variance at each node that the factors miss, in units of a².
+    pub(super) missing: Vec<f64>,
 }
 
 impl Candidate {
@@ -112,8 +117,8 @@ impl Candidate {
     }
 }
 
-/// Share of the trace that a factor may miss: far below what double precision readings can tell.
-const LEFT_OUT: f64 = 1e-15;
+/// Share of the trace that a factor may miss where readings have no noise: what is left then is the rounding of the covariance itself.
+const LEFT_OUT: f64 = 1e-17;
 /// And at most, however noisy the readings are.
 const MOST_LEFT_OUT: f64 = 1e-9;
 /// Components of a camera's curve. With one the reference problems of a camera came out best where readings have no noise, and with two by a tenth better where
@@ -146,11 +151,13 @@ pub(super) fn left_out(relative_uncertainty: f64) -> f64 {
 pub(super) fn smooth(nodes_nm: &[f64], smoothness: Smoothness, length_nm: f64, left_out: f64) -> Candidate {
     let k = |i: usize, j: usize| smoothness.correlation((nodes_nm[i] - nodes_nm[j]).abs() / length_nm);
     let name = match smoothness {
+        Smoothness::One => "Matérn 3/2",
         Smoothness::Two => "Matérn 5/2",
         Smoothness::Three => "Matérn 7/2",
         Smoothness::Four => "Matérn 9/2",
     };
-    Candidate { name: name.to_owned(), length_nm, factors: vec![low_rank::factor(nodes_nm.len(), &k, left_out)] }
+    let low_rank::Factored { columns, missing } = low_rank::factor(nodes_nm.len(), &k, left_out);
+    Candidate { name: name.to_owned(), length_nm, factors: vec![columns], missing }
 }
 
 /// Cameras: components and what they do not hold.
@@ -172,7 +179,8 @@ pub(super) fn cameras(nodes_nm: &[f64], components: &[Vec<Vec<f64>>], left_out: 
                     })
                 })
                 .collect();
-            found.push(Candidate { name: format!("camera components, {beyond} beyond them"), length_nm, factors });
+            let missing = rest.missing.iter().map(|m| beyond * beyond * m).collect();
+            found.push(Candidate { name: format!("camera components, {beyond} beyond them"), length_nm, factors, missing });
         }
     }
     found
@@ -188,7 +196,8 @@ pub(super) fn enveloped(candidate: &Candidate, envelopes: &[Vec<f64>], untouched
             DMatrix::from_fn(plain.nrows(), plain.ncols(), |k, j| if j < untouched { plain[(k, j)] } else { envelope[k] * plain[(k, j)] })
         })
         .collect();
-    Candidate { name: candidate.name.clone(), length_nm: candidate.length_nm, factors }
+    // The envelope is one at most, or hardly more: what is missing stays within what it was.
+    Candidate { name: candidate.name.clone(), length_nm: candidate.length_nm, factors, missing: candidate.missing.clone() }
 }
 
 /// How many leading columns of a family's factors are components.
@@ -212,9 +221,6 @@ pub(super) fn second_differences(nodes_nm: &[f64]) -> Candidate {
         // A line a thousand times as large as what bends: nearly free, as in the classic penalty.
         wiener(x, y) + wiener(1.0 - x, 1.0 - y) + 1e3 * (1.0 + (2.0 * x - 1.0) * (2.0 * y - 1.0))
     };
-    Candidate {
-        name: "second differences".to_owned(),
-        length_nm: last - first,
-        factors: vec![low_rank::factor(nodes_nm.len(), &k, LEFT_OUT)],
-    }
+    let low_rank::Factored { columns, missing } = low_rank::factor(nodes_nm.len(), &k, LEFT_OUT);
+    Candidate { name: "second differences".to_owned(), length_nm: last - first, factors: vec![columns], missing }
 }

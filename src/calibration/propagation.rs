@@ -50,7 +50,7 @@ pub fn covariance_root(curve: &FittedCurve) -> Vec<Vec<f64>> {
 }
 
 pub(super) fn root_of(curve: &FittedCurve) -> DMatrix<f64> {
-    low_rank::factor(curve.values.len(), &|i, j| curve.noise[(i, j)] + curve.structure[(i, j)], LEFT_OUT)
+    low_rank::factor(curve.values.len(), &|i, j| curve.noise[(i, j)] + curve.structure[(i, j)], LEFT_OUT).columns
 }
 
 /// Adds a cause that moves all readings together, by `moved` for one standard uncertainty, to the covariance: `C + (G m)(G m)ᵀ`.

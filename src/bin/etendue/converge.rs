@@ -1,4 +1,4 @@
-//! `etendue converge SCENE`: true error and claimed uncertainty against run time.
+//! `etendue converge FILE`: true error and claimed uncertainty against run time; of a calibration against exposures and noise, too.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -22,10 +22,11 @@ use crate::{Failure, disk, explain, output, print};
 const LONGEST: u64 = 1 << 30;
 
 /// True error and claimed uncertainty against run time, for the plan and, on request, for the naive one: how fast the error falls, and
-/// whether the uncertainty that is claimed is the true one.
+/// whether the uncertainty that is claimed is the true one. Of a calibration: the error of the fitted curve against the number of exposures,
+/// against noise and against run time.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The scene file.
+    /// The scene file, or a calibration file.
     scene: String,
     /// What the readings are held to: values in the order of the readings, each as 6.2225 or 6.2225±0.0005, or a file that `etendue
     /// measure --format json` or `csv` wrote [default: the closed form where there is one, else a long run].
@@ -76,6 +77,9 @@ enum Format {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if campaign::is_one(&arguments.scene) {
+        return campaign::run(arguments);
+    }
     let scene = disk::scene(&arguments.scene, arguments.root.as_deref())?;
     let plan = arguments.plan.plan(&scene)?;
     let naive = arguments.compare_naive.then(|| naive(&scene)).transpose()?;
@@ -87,8 +91,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     #[cfg(feature = "plot")]
     arguments.picture.check()?;
 
-    let options =
-        ConvergeOptions { seeds: arguments.seeds, seed: arguments.seed, budget_seconds: arguments.budget, most_samples: arguments.up_to };
+    let options = options(arguments);
     let bar = output::progress_bar();
     let start = Instant::now();
     let clock = ProcessorClock::new(arguments.threads);
@@ -100,7 +103,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     bar.finish_and_clear();
     let study = study.map_err(|e| match e {
         ConvergeError::Estimate(e) => Failure::Run(format!("error: {e}")),
-        ConvergeError::Reference(_) | ConvergeError::Budget(_) => Failure::Input(format!("error: {e}")),
+        _ => Failure::Input(format!("error: {e}")),
     })?;
     let report = ConvergenceReport {
         study,
@@ -120,6 +123,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     #[cfg(feature = "plot")]
     arguments.picture.draw(&report.study)?;
     Ok(())
+}
+
+fn options(arguments: &Arguments) -> ConvergeOptions {
+    ConvergeOptions { seeds: arguments.seeds, seed: arguments.seed, budget_seconds: arguments.budget, most_samples: arguments.up_to }
 }
 
 fn naive(scene: &Scene) -> Result<Plan, Failure> {
@@ -156,21 +163,95 @@ fn reference(given: &str, scene: &Scene) -> Result<Reference, Failure> {
     read.map_err(|why| unusable(&why, help))
 }
 
+mod campaign {
+    //! Calibrations: the error of the curve.
+
+    use std::time::Instant;
+
+    use etendue::estimate::run::with_threads;
+    use etendue::report::convergence::{CampaignReport, campaign_to_csv, campaign_to_json, campaign_to_text};
+    use etendue::study::StudyWatch;
+    use etendue::study::converge::ConvergeError;
+    use etendue::study::converge::campaign::converge_campaign;
+
+    use super::{Arguments, Format, LONGEST, options};
+    use crate::file_set::check_places;
+    use crate::processor_time::ProcessorClock;
+    use crate::{Failure, disk, output, print};
+
+    /// Whether a file holds a calibration. One that cannot be read is left to the reader of scenes, which says what is the matter.
+    pub(super) fn is_one(path: &str) -> bool {
+        let text = disk::text(path, LONGEST).unwrap_or_default();
+        let code = text.lines().map(|line| line.split("//").next().unwrap_or_default().trim());
+        code.into_iter().find(|line| !line.is_empty() && !line.starts_with("#!")).is_some_and(|line| line.starts_with("Calibration"))
+    }
+
+    pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+        let plan = arguments.plan.options();
+        let of_scenes = [
+            ("--reference", arguments.reference.is_some()),
+            ("--compare-naive", arguments.compare_naive),
+            ("--naive", plan.naive),
+            ("--without", !plan.without.is_empty()),
+        ];
+        if let Some((option, _)) = of_scenes.iter().find(|(_, given)| *given) {
+            return Err(Failure::Input(format!(
+                "error: {option} is for scenes, and `{}` is a calibration\n  = help: leave it out; the curve is held to the true one of its sensor",
+                arguments.scene
+            )));
+        }
+        let calibration = disk::calibration(&arguments.scene, arguments.root.as_deref())?;
+        check_places(arguments.out.iter().map(|path| ("--out", path)))?;
+        #[cfg(feature = "plot")]
+        arguments.picture.check_campaign()?;
+        let bar = output::progress_bar();
+        let start = Instant::now();
+        let clock = ProcessorClock::new(arguments.threads);
+        let (now, cpu) = (|| start.elapsed().as_secs_f64(), || clock.seconds());
+        let progress = |share: f64| bar.set_position((1000.0 * share) as u64);
+        let watch = StudyWatch { now: &now, cpu: &cpu, progress: &progress };
+        let threads = usize::try_from(arguments.threads).ok();
+        let study = with_threads(threads, || converge_campaign(&calibration, &options(arguments), &watch));
+        bar.finish_and_clear();
+        let study = study.map_err(|e| match e {
+            ConvergeError::Estimate(e) => Failure::Run(format!("error: {e}")),
+            _ => Failure::Input(format!("error: {}: {e}", arguments.scene)),
+        })?;
+        let file = arguments.scene.clone();
+        let report = CampaignReport { study, file, threads: arguments.threads, cpu_clock: clock.in_words().to_owned() };
+        let written = match arguments.format {
+            Format::Text => campaign_to_text(&report),
+            Format::Json => campaign_to_json(&report),
+            Format::Csv => campaign_to_csv(&report),
+        };
+        match &arguments.out {
+            None => print(&written)?,
+            Some(file) => output::save_at(file, written.as_bytes())?,
+        }
+        #[cfg(feature = "plot")]
+        arguments.picture.draw_campaign(&report.study)?;
+        Ok(())
+    }
+}
+
 #[cfg(feature = "plot")]
 mod picture {
     //! The picture of a study.
 
     use std::path::{Path, PathBuf};
 
-    use etendue::report::plot::{self, PlotError, Size, Style, Theme};
+    use etendue::report::plot::campaign::{self, Against};
+    use etendue::report::plot::{self, Chart, PlotError, Size, Style, Theme};
     use etendue::study::converge::Convergence;
+    use etendue::study::converge::campaign::CampaignConvergence;
 
     use crate::file_set::check_places;
     use crate::{Failure, complain, output};
 
     #[derive(clap::Args)]
     pub(crate) struct Options {
-        /// Draw error and claimed uncertainty against processor time into this file, `.svg` or `.png`.
+        /// Draw error and claimed uncertainty against processor time into this file, `.svg` or `.png`; of a calibration three pictures, whose
+        /// names end in -exposures, -noise and -time.
         #[arg(long, value_name = "FILE")]
         plot: Option<PathBuf>,
         /// Light lines on near black.
@@ -178,12 +259,19 @@ mod picture {
         dark: bool,
     }
 
+    /// Where the picture of a campaign goes that shows the error against this.
+    fn of_campaign(path: &Path, against: Against) -> PathBuf {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        path.with_file_name(format!("{stem}-{}.{extension}", against.name()))
+    }
+
     impl Options {
         fn is_png(&self) -> bool {
             self.plot.as_deref().and_then(Path::extension).is_some_and(|e| e.eq_ignore_ascii_case("png"))
         }
 
-        pub(crate) fn check(&self) -> Result<(), Failure> {
+        fn check_name(&self) -> Result<(), Failure> {
             let Some(path) = &self.plot else { return Ok(()) };
             if !self.is_png() && !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg")) {
                 return Err(Failure::Input(format!(
@@ -192,13 +280,36 @@ mod picture {
                     path.with_extension("svg").display()
                 )));
             }
-            check_places([("--plot", path)])
+            Ok(())
+        }
+
+        pub(crate) fn check(&self) -> Result<(), Failure> {
+            self.check_name()?;
+            check_places(self.plot.iter().map(|path| ("--plot", path)))
+        }
+
+        pub(crate) fn check_campaign(&self) -> Result<(), Failure> {
+            self.check_name()?;
+            let places: Vec<PathBuf> = self.plot.iter().flat_map(|path| Against::ALL.map(|against| of_campaign(path, against))).collect();
+            check_places(places.iter().map(|path| ("--plot", path)))
         }
 
         pub(crate) fn draw(&self, study: &Convergence) -> Result<(), Failure> {
+            match &self.plot {
+                Some(path) => self.save(plot::convergence::chart(study), path),
+                None => Ok(()),
+            }
+        }
+
+        /// Three pictures: the name is that of the file, and what the error stands against.
+        pub(crate) fn draw_campaign(&self, study: &CampaignConvergence) -> Result<(), Failure> {
             let Some(path) = &self.plot else { return Ok(()) };
+            Against::ALL.into_iter().try_for_each(|against| self.save(campaign::chart(study, against), &of_campaign(path, against)))
+        }
+
+        fn save(&self, chart: Result<Chart, PlotError>, path: &Path) -> Result<(), Failure> {
             let failed = |e: PlotError| Failure::Run(format!("error: {e}"));
-            let chart = match plot::convergence::chart(study) {
+            let chart = match chart {
                 Err(e @ PlotError::Nothing { .. }) => {
                     complain(&format!("no picture was drawn: {e}"));
                     return Ok(());

@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     /// Write the rows into this file and not to stdout.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Draw deviation and time against the parameter, two SVG pictures a sweep, into this folder.
+    /// Draw deviation, time and, of fits, errors over their uncertainties against the parameter, an SVG picture each, into this folder.
     #[cfg(feature = "plot")]
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
@@ -124,7 +124,12 @@ fn measured(sweeps: &[Sweep]) -> Vec<SweepResult> {
 fn draw(folder: &Path, results: &[SweepResult]) -> Result<(), Failure> {
     use etendue::report::plot::{self, Size, Style, Theme};
     for result in results {
-        for (what, chart) in [("deviation", report::chart::deviations(result)), ("time", report::chart::times(result))] {
+        let charts = [
+            ("deviation", report::chart::deviations(result)),
+            ("time", report::chart::times(result)),
+            ("bands", report::chart::in_bands(result)),
+        ];
+        for (what, chart) in charts {
             let Some(chart) = chart else { continue };
             let style = Style { theme: Theme::Light, size: Size::Paper };
             let picture = plot::svg(&chart, &style).map_err(|e| Failure::Run(format!("error: {}: {e}", result.sweep.name)))?;

@@ -198,7 +198,7 @@ fn time_to(time_to: &TimeTo) -> String {
     }
 }
 
-fn time(seconds: f64) -> String {
+pub(super) fn time(seconds: f64) -> String {
     let (scale, unit) = match seconds {
         s if s >= 1.0 || s == 0.0 => (1.0, "s"),
         s if s >= 1e-3 => (1e3, "ms"),
@@ -207,12 +207,12 @@ fn time(seconds: f64) -> String {
     format!("{} {unit}", format_significant(seconds * scale, 3))
 }
 
-fn slope(law: Option<&PowerLaw>) -> String {
+pub(super) fn slope(law: Option<&PowerLaw>) -> String {
     law.map_or("not known".to_owned(), |l| format!("{} ± {:.2}", signed(l.exponent), l.standard_uncertainty))
 }
 
 /// A share in percent.
-fn share(x: f64) -> String {
+pub(super) fn share(x: f64) -> String {
     format!("{} %", format_significant(100.0 * x, if TARGETS.contains(&x) { 1 } else { 3 }))
 }
 

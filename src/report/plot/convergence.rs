@@ -92,21 +92,21 @@ fn drawn(curves: &[ErrorCurve], plans: usize) -> &[ErrorCurve] {
 }
 
 /// The largest of 1, 2, 5 times a power of ten that is clearly below.
-fn below(x: f64) -> f64 {
+pub(super) fn below(x: f64) -> f64 {
     let least = x / 1.2;
     let power = 10f64.powf(least.log10().floor());
     [5.0, 2.0, 1.0].into_iter().map(|digit| digit * power).find(|candidate| *candidate <= least).unwrap_or(power)
 }
 
 /// The smallest of 1, 2, 5 times a power of ten that is clearly above.
-fn above(x: f64) -> f64 {
+pub(super) fn above(x: f64) -> f64 {
     let most = x * 1.2;
     let power = 10f64.powf(most.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|digit| digit * power).find(|candidate| *candidate >= most).unwrap_or(10.0 * power)
 }
 
 /// A tick a decade, fewer where there are many, in plain digits where these are few; of a short axis none, for it finds its own.
-fn decades(from: f64, to: f64) -> Vec<(f64, String)> {
+pub(super) fn decades(from: f64, to: f64) -> Vec<(f64, String)> {
     let (first, last) = ((from.log10() - 1e-9).ceil() as i32, (to.log10() + 1e-9).floor() as i32);
     if (to / from).log10() <= 2.5 {
         return Vec::new();

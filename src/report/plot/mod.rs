@@ -21,7 +21,7 @@
 //! | `sample` | points of a function, colours along an axis |
 //! | `sensor`, `polar` | responsivity and directional response of sensors |
 //! | `wavelength_colour` | colours of wavelengths, smooth to the eye |
-//! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody`, `convergence`, `calibration`, `calibration_statistics` | a plot each |
+//! | `v_lambda`, `cones`, `pigments`, `cmf`, `spectrum`, `reflectance`, `blackbody`, `convergence`, `campaign`, `calibration`, `calibration_statistics` | a plot each |
 //!
 //! ```
 //! use etendue::report::plot::{self, Size, Style, Theme};
@@ -36,6 +36,7 @@ mod axis;
 pub mod blackbody;
 pub mod calibration;
 mod calibration_statistics;
+pub mod campaign;
 mod canvas;
 pub mod chart;
 pub mod chromaticity;

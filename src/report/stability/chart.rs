@@ -8,6 +8,9 @@ use crate::study::stability::{Row, SweepResult};
 
 /// Lowest deviation that is drawn.
 const LOWEST: f64 = 1e-17;
+/// Least and largest error over uncertainty that are drawn where they belong.
+const LEAST_RATIO: f64 = 0.01;
+const MOST_RATIO: f64 = 100.0;
 
 /// Relative deviation of each series; dotted, the expanded uncertainty that its readings state. `None` without two readings.
 #[must_use]
@@ -32,6 +35,17 @@ pub fn deviations(result: &SweepResult) -> Option<Chart> {
 pub fn times(result: &SweepResult) -> Option<Chart> {
     let mut chart = drawn(result, "Time", "Time", "s", |row| Some(row.seconds.max(1e-7)))?;
     fit_y(&mut chart);
+    Some(chart)
+}
+
+/// Errors of fitted curves over their stated uncertainties, RMS over the nodes: 1 is honest, less is cautious. `None` without two fits.
+#[must_use]
+pub fn in_bands(result: &SweepResult) -> Option<Chart> {
+    let ratio = |row: &Row| row.inside.and(row.deviation_u).map(|x| x.clamp(LEAST_RATIO, MOST_RATIO));
+    let mut chart = drawn(result, "Error over stated uncertainty", "RMS of error over u", "1", ratio)?;
+    chart.y = Axis::log("RMS of error over u", "1", LEAST_RATIO, MOST_RATIO);
+    let ends = [chart.x.from, chart.x.to].map(|x| [x, 1.0]);
+    chart.curves.push(Curve::new("as stated", ends.to_vec(), Ink::Text).dashed(Dash::Dashed));
     Some(chart)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::study::stability::SweepResult;
 
-const HEAD: [&str; 15] = [
+const HEAD: [&str; 16] = [
     "sweep",
     "series",
     "parameter",
@@ -14,6 +14,7 @@ const HEAD: [&str; 15] = [
     "relative_deviation",
     "deviation_in_u",
     "relative_expanded_uncertainty",
+    "share_within_99_percent_bands",
     "samples",
     "seconds",
     "judgement",
@@ -41,6 +42,7 @@ pub fn to_csv(results: &[SweepResult]) -> String {
                 number(row.deviation),
                 number(row.deviation_u),
                 number(row.expanded),
+                number(row.inside),
                 row.samples.to_string(),
                 format!("{:.6}", row.seconds),
                 row.judgement.word().to_owned(),

@@ -11,7 +11,7 @@ pub mod chart;
 pub mod csv;
 pub mod json;
 
-use crate::study::stability::{COSTLY_SECONDS, Failing, Row, SweepResult};
+use crate::study::stability::{COSTLY_SECONDS, Failing, Judgement, Row, SweepResult};
 
 /// Most characters of a note in a table for a terminal.
 const NOTE_WIDTH: usize = 100;
@@ -23,7 +23,8 @@ pub fn to_text(results: &[SweepResult]) -> String {
     for result in results {
         let sweep = &result.sweep;
         text.push_str(&format!("{}: {} ({})\n  {}\n", sweep.name, sweep.parameter, sweep.unit, sweep.law));
-        let head = ["series", "parameter", "reading", "reference", "deviation", "in u", "U", "samples", "s", "", "note"].map(str::to_owned);
+        let head = ["series", "parameter", "reading", "reference", "deviation", "in u", "U", "in bands", "samples", "s", "", "note"]
+            .map(str::to_owned);
         let rows = result.rows.iter().map(|row| {
             let note: String = row.note.chars().take(NOTE_WIDTH).collect();
             let cut = if note.len() < row.note.len() { "…" } else { "" };
@@ -50,6 +51,10 @@ pub fn to_markdown(results: &[SweepResult]) -> String {
          *in u* the same in standard uncertainties that the reading states, *U* its expanded uncertainty at 95 % over |S₀| (absolute where\n\
          S₀ is zero). A row holds if it deviates by at most 2 U (one reading in twenty lies outside of U by its definition), or, where a law\n\
          ties two runs with the same random numbers, by no more than rounding. *Told* means: no reading, and the note is what the user is told.\n\n\
+         In the sweeps `fit-…` a row is a responsivity curve fitted to sets of readings (*samples* is their number, the time that of one fit). *Deviation* is the\n\
+         RMS error of the curve over its peak, *in u* the RMS of the errors over their stated uncertainties, *U* twice the RMS of these over the peak; reading\n\
+         and reference are those of the node that is furthest off. A row holds if at least 95 % of the nodes are within their 99 % bands (*in bands*). It is\n\
+         *told* if there is no fit, or if the note says that its uncertainty means nothing.\n\n\
          ## Where it starts to fail\n\n",
     );
     let rows = results.iter().flat_map(|result| result.summary().into_iter().map(|failing| summary_cells(result, &failing)));
@@ -58,7 +63,8 @@ pub fn to_markdown(results: &[SweepResult]) -> String {
     for result in results {
         let sweep = &result.sweep;
         text.push_str(&format!("\n## {}\n\n{} ({}); {}.\n\n", sweep.name, capitalised(sweep.parameter), sweep.unit, sweep.law));
-        let head = ["series", "parameter", "reading", "reference", "deviation", "in u", "U", "samples", "s", "judgement", "note"];
+        let head =
+            ["series", "parameter", "reading", "reference", "deviation", "in u", "U", "in bands", "samples", "s", "judgement", "note"];
         text.push_str(&table(&head, result.rows.iter().map(|row| cells(row, row.note.clone()))));
     }
     text
@@ -86,7 +92,7 @@ fn summary_cells(result: &SweepResult, failing: &Failing) -> [String; 9] {
     ]
 }
 
-fn cells(row: &Row, note: String) -> [String; 11] {
+fn cells(row: &Row, note: String) -> [String; 12] {
     let or_none = |x: Option<f64>, how: fn(f64) -> String| x.map_or("—".to_owned(), how);
     [
         row.series.to_owned(),
@@ -96,6 +102,7 @@ fn cells(row: &Row, note: String) -> [String; 11] {
         or_none(row.deviation, size),
         or_none(row.deviation_u, size),
         or_none(row.expanded, size),
+        row.inside.map_or(String::new(), |share| format!("{:.1} %", 100.0 * share)),
         row.samples.to_string(),
         format!("{:.4}", row.seconds),
         row.judgement.word().to_owned(),
@@ -107,7 +114,7 @@ fn cells(row: &Row, note: String) -> [String; 11] {
 fn verdict(results: &[SweepResult]) -> String {
     let rows = || results.iter().flat_map(|r| &r.rows);
     let wrong = results.iter().flat_map(SweepResult::wrong).count();
-    let told = rows().filter(|r| r.reading.is_none()).count();
+    let told = rows().filter(|r| r.judgement == Judgement::Told).count();
     let seconds: f64 = rows().map(|r| r.seconds).sum();
     let slow = rows().filter(|r| r.seconds >= COSTLY_SECONDS).count();
     format!(

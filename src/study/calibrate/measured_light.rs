@@ -37,7 +37,7 @@ pub(super) fn add_shared(curve: &mut FittedCurve, readings: &Readings, shared: &
 }
 
 /// Readings per unit of what the geometry factor multiplies; how well the power of the beam is known is a part of their uncertainty.
-pub(super) fn per_factor(readings: &ChannelReadings, factor: f64, beam: Option<&MeasuredBeam>) -> Readings {
+pub(in crate::study) fn per_factor(readings: &ChannelReadings, factor: f64, beam: Option<&MeasuredBeam>) -> Readings {
     let power = |i: usize| beam.and_then(|beam| beam.relative_uncertainties.get(i)).copied().unwrap_or(0.0);
     let all = readings.values.iter().zip(&readings.standard_uncertainties).enumerate();
     Readings {

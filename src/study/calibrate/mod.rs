@@ -8,11 +8,13 @@
 //! | file | what |
 //! |---|---|
 //! | `mod.rs` | the way from a campaign to fitted channels |
+//! | `bends` | whether a curve bends more between its nodes than its uncertainty holds |
 //! | `measured_light` | the light of the exposures, where a reference detector measured it |
 //! | [`propagate`] | f1′, mismatch correction and luminous responsivity, with their uncertainties |
 //! | [`range`] | readings beyond the straight range of the readout |
 //! | [`suggest`] | which further exposure helps most |
 
+pub(super) mod bends;
 mod measured_light;
 pub mod propagate;
 pub mod range;
@@ -31,7 +33,8 @@ use crate::quantity::Measurand;
 use crate::scene::{Calibration, CurveModel};
 use crate::spectrum::{Density, Factor, Outside, SpectrumError, Table};
 
-use measured_light::{add_shared, at_power, beam, per_factor};
+pub(super) use measured_light::per_factor;
+use measured_light::{add_shared, at_power, beam};
 use propagate::Propagated;
 use suggest::{Suggestion, Wanted};
 
@@ -41,9 +44,6 @@ pub const UNDETERMINED: f64 = 0.25;
 
 /// Probability with which a simultaneous band holds the whole curve.
 pub const SIMULTANEOUS: f64 = 0.95;
-
-/// Share of the nodes at which a curve may bend more than its uncertainty before it is said.
-const COARSE: f64 = 0.05;
 
 /// How to calibrate.
 #[derive(Clone, Debug, Default)]
@@ -208,7 +208,12 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
     for (c, (curve, readings)) in fitted.curves.iter().zip(readings).enumerate() {
         let simulated = options.data.is_none().then(|| campaign::sought(&sensor.channels[c]));
         let found = channel(calibration, curve, readings, simulated.as_ref(), taken, scale_uncertainty, options.seed)?;
-        remarks.extend(too_coarse(nodes, &found));
+        remarks.extend(bends::too_coarse(
+            nodes,
+            &found.curve.values,
+            &found.standard_uncertainties,
+            (&found.readings.channel, &found.unit),
+        ));
         if let Some(truth) = &simulated {
             remarks.extend(propagate::beyond_nodes(&found.readings.channel, nodes, truth, &calibration.lamps)?);
         }
@@ -272,7 +277,7 @@ fn assembled(
 }
 
 /// Cameras have a prior of their own: three channels for red, green and blue, as their names say.
-fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f64]) -> PriorKind {
+pub(super) fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f64]) -> PriorKind {
     let names: Vec<String> = readings.iter().map(|r| r.channel.to_lowercase()).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     match (&options.fit.prior, names.as_slice()) {
@@ -282,7 +287,7 @@ fn prior(options: &CalibrateOptions, readings: &[ChannelReadings], nodes_nm: &[f
 }
 
 /// The model of the file, as the fit takes it.
-fn model(given: &CurveModel) -> Model {
+pub(super) fn model(given: &CurveModel) -> Model {
     match given {
         CurveModel::Smooth => Model::Smooth,
         CurveModel::SumOfGaussians(n) => Model::SumOfGaussians(*n),
@@ -336,23 +341,6 @@ fn channel(
         curve: curve.clone(),
         per_irradiance: 1.0,
         readings,
-    })
-}
-
-/// Whether the curve bends between its nodes by more than its uncertainty: `h² |s″| / 8`, an eighth of the second difference.
-fn too_coarse(nodes: &[f64], channel: &CalibratedChannel) -> Option<String> {
-    let s = &channel.curve.values;
-    let bends: Vec<f64> = s.windows(3).map(|w| 0.125 * (w[0] - 2.0 * w[1] + w[2]).abs()).collect();
-    let beyond = bends.iter().zip(&channel.standard_uncertainties[1..]).filter(|(bend, u)| bend > u).count();
-    let largest = bends.iter().fold(0.0f64, |most, bend| most.max(*bend));
-    (beyond as f64 > COARSE * nodes.len() as f64).then(|| {
-        format!(
-            "{}: between nodes that are {} nm apart the curve bends by up to {largest:.2e} {}, at {beyond} nodes more than its uncertainty, which does not hold \
-             that; give `curve` a smaller `step_nm`",
-            channel.readings.channel,
-            nodes[1] - nodes[0],
-            channel.unit
-        )
     })
 }
 

@@ -14,6 +14,7 @@
 //! | `curve.rs` | errors of a set of readings against samples and time |
 //! | `gain.rs` | what one plan saves against another |
 //! | `power_law.rs` | slopes, and the time to an error |
+//! | [`campaign`] | the same for calibrations: error of the curve against exposures, noise and run time |
 //!
 //! | who | share of the budget |
 //! |---|---|
@@ -25,6 +26,7 @@
 //! Readings are the same bits for any number of threads, but how many rungs there are and how long the reference is depends on the
 //! speed of the machine unless `most_samples` ends the ladder.
 
+pub mod campaign;
 mod curve;
 mod gain;
 mod ladder;
@@ -114,13 +116,15 @@ pub enum ConvergeError {
     Reference(String),
     /// The budget does not reach for two runs of the lowest rung and a reference.
     Budget(String),
+    /// The campaign cannot be simulated or fitted.
+    Campaign(String),
 }
 
 impl std::fmt::Display for ConvergeError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             ConvergeError::Estimate(e) => e.fmt(f),
-            ConvergeError::Reference(what) | ConvergeError::Budget(what) => f.write_str(what),
+            ConvergeError::Reference(what) | ConvergeError::Budget(what) | ConvergeError::Campaign(what) => f.write_str(what),
         }
     }
 }

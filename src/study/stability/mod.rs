@@ -25,10 +25,13 @@
 //! | [`penumbra`] | width of a penumbra, m | the integral over the part that is seen |
 //! | [`counts`] | numbers of spectral lines, sources, instruments | sums |
 //!
+//! | [`fits`] | condition, noise, number, faults and units of calibration readings | the true curve within its bands, or words |
+//!
 //! `run` executes, `reference` integrates, `text` writes scenes.
 
 pub mod acceptance;
 pub mod counts;
+pub mod fits;
 pub mod grazing;
 pub mod line_width;
 pub mod offset;
@@ -61,7 +64,7 @@ pub struct Sweep {
 }
 
 /// Every sweep.
-pub const SWEEPS: [Sweep; 14] = [
+pub const SWEEPS: [Sweep; 21] = [
     scale::SWEEP,
     offset::SWEEP,
     source_size::SWEEP,
@@ -76,6 +79,13 @@ pub const SWEEPS: [Sweep; 14] = [
     counts::LINES,
     counts::SOURCES,
     counts::INSTRUMENTS,
+    fits::condition::SWEEP,
+    fits::noise::SWEEP,
+    fits::counts::EXPOSURES,
+    fits::counts::DUPLICATES,
+    fits::faults::ZEROS,
+    fits::faults::CONTRADICTIONS,
+    fits::units::SWEEP,
 ];
 
 /// One scene of a sweep, and what it must read.
@@ -85,7 +95,7 @@ pub struct Point {
     pub series: &'static str,
     /// Value of the parameter, in the sweep's unit.
     pub parameter: f64,
-    /// The scene file.
+    /// The scene file; empty for a fit.
     pub scene: String,
     /// Files that it names: path and content.
     pub files: Vec<(String, Vec<u8>)>,
@@ -118,6 +128,8 @@ pub enum Reference {
     },
     /// No reading at all: the program has to say why.
     Refused,
+    /// No scene but readings, and the curves that their fits must find.
+    Fit(Box<fits::FitProblem>),
 }
 
 impl Reference {
@@ -141,6 +153,9 @@ impl Point {
         Point { samples: Some(samples), ..self }
     }
 }
+
+/// A true curve at its nodes, nm.
+type Curve = fn(&[f64]) -> Vec<f64>;
 
 /// 10ⁿ for n from `from` to `to` in steps of `step`, as the nearest double.
 fn decades(from: i32, to: i32, step: i32) -> Vec<f64> {

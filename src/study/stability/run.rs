@@ -55,7 +55,9 @@ pub struct Row {
     pub deviation_u: Option<f64>,
     /// U / |S₀|.
     pub expanded: Option<f64>,
-    /// Samples; zero where formulas served.
+    /// Share of a curve's nodes that are within their 99 % bands; `None` for scenes.
+    pub inside: Option<f64>,
+    /// Samples; zero where formulas served. Sets of readings, where curves were fitted.
     pub samples: u64,
     /// Seconds to read the scene file, to plan and to measure.
     pub seconds: f64,
@@ -143,6 +145,11 @@ pub fn run(sweep: &Sweep, keep: impl Fn(&Point) -> bool, now: &(dyn Fn() -> f64 
         {
             known.push((scene.clone(), point.samples, read(scene, point, now)));
         }
+        if let Reference::Fit(problem) = &point.reference {
+            rows.push(super::fits::row(point, problem, now));
+            progress((i + 1) as f64 / points.len() as f64);
+            continue;
+        }
         let start = now();
         let found = read(&point.scene, point, now);
         let seconds = now() - start;
@@ -193,21 +200,29 @@ impl Compared {
     }
 }
 
+impl Row {
+    /// A row without a reading.
+    pub(super) fn empty(point: &Point, seconds: f64) -> Row {
+        Row {
+            series: point.series,
+            parameter: point.parameter,
+            reading: None,
+            unit: String::new(),
+            reference: None,
+            deviation: None,
+            deviation_u: None,
+            expanded: None,
+            inside: None,
+            samples: 0,
+            seconds,
+            judgement: Judgement::Told,
+            note: String::new(),
+        }
+    }
+}
+
 fn row(point: &Point, found: Result<Measurement, String>, base: Option<&Result<Measurement, String>>, seconds: f64) -> Row {
-    let mut row = Row {
-        series: point.series,
-        parameter: point.parameter,
-        reading: None,
-        unit: String::new(),
-        reference: None,
-        deviation: None,
-        deviation_u: None,
-        expanded: None,
-        samples: 0,
-        seconds,
-        judgement: Judgement::Told,
-        note: String::new(),
-    };
+    let mut row = Row::empty(point, seconds);
     let measured = match found {
         Ok(measured) => measured,
         Err(message) => {
@@ -245,7 +260,7 @@ fn compared(point: &Point, measured: &Measurement, base: Option<&Result<Measurem
     let readings = measured.readings.iter().enumerate();
     let own = |r: &crate::measurement::Reading| (r.standard_uncertainty(), r.expanded.expanded_uncertainty);
     match &point.reference {
-        Reference::Refused => Err("a reading is given where there is none".to_owned()),
+        Reference::Fit(_) | Reference::Refused => Err("a reading is given where there is none".to_owned()),
         Reference::Values { values, relative } => {
             if values.is_empty() || values.len() > 1 && values.len() != measured.readings.len() {
                 return Err(format!("{} references for {} readings", values.len(), measured.readings.len()));

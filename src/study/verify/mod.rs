@@ -47,11 +47,12 @@ use crate::naming::nearest;
 use families::Family;
 
 /// The files of cases that come with the library.
-pub const FILES: [(&str, &str); 5] = [
+pub const FILES: [(&str, &str); 6] = [
     ("g1_radiometry.json", include_str!("cases/g1_radiometry.json")),
     ("g2_spectral.json", include_str!("cases/g2_spectral.json")),
     ("g3_transport.json", include_str!("cases/g3_transport.json")),
     ("g4_extreme.json", include_str!("cases/g4_extreme.json")),
+    ("g5_calibration.json", include_str!("cases/g5_calibration.json")),
     ("g6_emva1288.json", include_str!("cases/g6_emva1288.json")),
 ];
 

@@ -2,6 +2,7 @@
 //!
 //! A file a part of the project; each holds a table of its families and is named in `all`.
 
+mod calibration;
 mod colour;
 mod emva;
 mod extreme;
@@ -33,6 +34,7 @@ pub(super) fn all() -> impl Iterator<Item = (&'static str, Family)> {
         quality::FAMILIES,
         transport::FAMILIES,
         emva::FAMILIES,
+        calibration::FAMILIES,
     ]
     .into_iter()
     .flatten()
