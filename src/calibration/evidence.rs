@@ -176,13 +176,16 @@ pub(super) fn rule_points(trial: &Trial, channel: usize, data: &Whitened) -> Vec
         .map(|i| {
             let scale = data.scale * (-14.0 + 32.0 * i as f64 / (COUNT - 1) as f64).exp();
             let (mut chi_squared, mut roughness, mut effective_parameters) = (c.rest, 0.0, 0.0);
+            // m − p without a difference: a loose curve goes through every reading, and the ratio is one of small numbers.
+            let mut left = readings - d.s.len() as f64;
             for (s, z) in d.s.iter().zip(c.z.iter()) {
                 let w = (scale * s).powi(2);
                 chi_squared += (z / (1.0 + w)).powi(2);
                 roughness += (scale * scale * s * z / (1.0 + w)).powi(2);
                 effective_parameters += w / (1.0 + w);
+                left += 1.0 / (1.0 + w);
             }
-            let cross_validation = chi_squared / (readings - effective_parameters).max(1e-9 * readings).powi(2);
+            let cross_validation = if left > 0.0 { (chi_squared.sqrt() / left).powi(2) } else { f64::INFINITY };
             RulePoint { scale, chi_squared, roughness, effective_parameters, cross_validation }
         })
         .collect()

@@ -13,6 +13,7 @@
 //! | `temperature` | correlated colour temperature and Duv |
 //! | `dominant` | dominant and complementary wavelength, purity |
 //! | `rgb` | linear and 8-bit sRGB, the lecture's R, G, B |
+//! | `lab` | CIELAB and the distance of colours |
 //! | `locus` | spectral and daylight locus, white points |
 //!
 //! ```
@@ -30,6 +31,7 @@
 
 mod chromaticity;
 mod dominant;
+mod lab;
 mod locus;
 mod planckian;
 mod rgb;
@@ -38,6 +40,7 @@ mod tristimulus;
 
 pub use chromaticity::Chromaticity;
 pub use dominant::{DominantWavelength, Hue, SpectralLocus, dominant_wavelength};
+pub use lab::Lab;
 pub use locus::{LOCUS_RANGE_NM, SpectralPoint, spectral_locus, white_point};
 pub use planckian::PlanckianLocus;
 pub use rgb::{Gamut, Srgb, linear_srgb_of, tristimulus_of_linear_srgb, xyz_of_wright_guild};

@@ -1,6 +1,6 @@
 //! A calibration as JSON.
 //!
-//! Schema 1: `{"schema", "title", "sensor", "simulated", "seed", "prior", "reference", "wavelengths_nm", "channels": […], "suggestions": […], "remarks"}`. What
+//! Schema 1: `{"schema", "title", "sensor", "simulated", "seed", "prior", "reference", "wavelengths_nm", "channels": […], "colours": […], "suggestions": […], "remarks"}`. What
 //! is not known or not finite is `null`.
 
 use serde::Serialize;
@@ -26,6 +26,8 @@ struct Document<'a> {
     wavelengths_nm: &'a [f64],
     exposures: &'a [String],
     channels: Vec<Channel<'a>>,
+    /// Mean ΔE*ab of a chart, a lamp each; none but of three channels.
+    colours: Vec<Use<'a>>,
     suggestions: Vec<Suggested<'a>>,
     remarks: &'a [String],
 }
@@ -206,6 +208,7 @@ pub fn to_json(calibrated: &Calibrated) -> String {
         wavelengths_nm: &calibrated.nodes_nm,
         exposures: &calibrated.labels,
         channels: calibrated.channels.iter().map(channel).collect(),
+        colours: calibrated.colours.iter().map(used).collect(),
         suggestions: calibrated
             .suggestions
             .iter()

@@ -53,6 +53,10 @@ pub fn to_text(calibrated: &Calibrated) -> String {
         text.push('\n');
         channel_text(&mut text, calibrated, channel);
     }
+    if !calibrated.colours.is_empty() {
+        text.push_str("\nColours of the 24 patches of a ColorChecker, by the matrix that suits them best, against those that the CIE 1931 observer sees\n");
+        uses_text(&mut text, &calibrated.colours, "");
+    }
     if !calibrated.suggestions.is_empty() {
         text.push_str("\nFurther exposures that would help most, by the error that is expected with them\n");
         for (i, s) in calibrated.suggestions.iter().enumerate() {
@@ -121,20 +125,20 @@ fn channel_text(text: &mut String, calibrated: &Calibrated, channel: &Calibrated
     consistency_text(text, channel);
     curve_rows(text, calibrated, channel);
     if !channel.uses.is_empty() {
-        uses_text(text, channel);
+        uses_text(text, &channel.uses, channel.readings.measurand.unit());
     }
 }
 
-/// What the curve is worth in use.
-fn uses_text(text: &mut String, channel: &CalibratedChannel) {
+/// What the curve is worth in use: of readings in `unit`.
+fn uses_text(text: &mut String, uses: &[Propagated], reading_unit: &str) {
     let name = |q: &Propagated| match q.unit.as_str() {
         "1" => q.name.clone(),
-        unit => format!("{} ({} {unit})", q.name, channel.readings.measurand.unit()),
+        unit => format!("{} ({reading_unit} {unit})", q.name),
     };
-    let width = channel.uses.iter().map(|q| name(q).chars().count()).fold(8, usize::max);
-    let truth = if channel.truth.is_some() { format!("{:>13}{:>10}", "true curve", "apart") } else { String::new() };
+    let width = uses.iter().map(|q| name(q).chars().count()).fold(8, usize::max);
+    let truth = if uses.iter().any(|q| q.truth.is_some()) { format!("{:>13}{:>10}", "true curve", "apart") } else { String::new() };
     let _ = writeln!(text, "  {:<width$}  {:<24}{:>14}{truth}", "In use", "value ± u", "Monte Carlo u");
-    for q in &channel.uses {
+    for q in uses {
         let rounded = Rounded::new(q.value, q.standard_uncertainty).map_or_else(|| "–".to_owned(), |r| r.with_unit(""));
         let truth = q.truth.map_or_else(String::new, |truth| {
             let apart = (q.value - truth) / q.standard_uncertainty;
@@ -144,7 +148,7 @@ fn uses_text(text: &mut String, channel: &CalibratedChannel) {
         let _ = writeln!(text, "  {:<width$}  {:<24}{:>14}{truth}", name(q), rounded.trim(), format_significant(q.monte_carlo, 2));
     }
     let apart = |q: &&Propagated| (q.monte_carlo / q.standard_uncertainty - 1.0).abs() > LINEAR;
-    let bent: Vec<&str> = channel.uses.iter().filter(apart).map(|q| q.name.as_str()).collect();
+    let bent: Vec<&str> = uses.iter().filter(apart).map(|q| q.name.as_str()).collect();
     if !bent.is_empty() {
         let _ = writeln!(
             text,

@@ -17,6 +17,8 @@ const COVERAGE: f64 = 2.0;
 const NARROW_NM: f64 = 40.0;
 /// How many averaging kernels are drawn.
 const KERNELS: usize = 9;
+/// Share of the axis that a span takes if the words "not determined" stand in it: inside of the picture, and at its ends.
+const ROOM: (f64, f64) = (0.05, 0.15);
 
 /// All pictures, each with a part of its file's name.
 ///
@@ -37,10 +39,13 @@ fn range(calibrated: &Calibrated) -> (f64, f64) {
     (nodes.first().copied().unwrap_or(380.0), nodes.last().copied().unwrap_or(780.0))
 }
 
-fn unseen(channel: &CalibratedChannel) -> Vec<Span> {
-    // The widest has room for the words.
+fn unseen(calibrated: &Calibrated, channel: &CalibratedChannel) -> Vec<Span> {
+    // The widest may have room for the words, which reach beyond a narrow one: not where the picture ends.
+    let (first, last) = range(calibrated);
     let width = |i: &usize| channel.unseen_nm[*i].1 - channel.unseen_nm[*i].0;
     let widest = (0..channel.unseen_nm.len()).max_by(|a, b| width(a).total_cmp(&width(b)));
+    let inside = |i: &usize| channel.unseen_nm[*i].0 > first && channel.unseen_nm[*i].1 < last;
+    let widest = widest.filter(|i| width(i) > if inside(i) { ROOM.0 } else { ROOM.1 } * (last - first));
     let label = |i: usize| if Some(i) == widest { "not determined".to_owned() } else { String::new() };
     channel.unseen_nm.iter().enumerate().map(|(i, &(from, to))| Span { label: label(i), from, to }).collect()
 }
@@ -89,7 +94,7 @@ fn deviations(calibrated: &Calibrated) -> Option<Chart> {
     let y = Axis::linear("Fit minus truth", "% of the peak", -top, top);
     let subtitle = format!("{}; band: ±2 u about zero", calibrated.sensor);
     let title = format!("{}: what the fit misses", calibrated.title);
-    Some(Chart { curves, bands, spans: unseen(first), strip: strip(from, to), ..Chart::new(&title, &subtitle, x, y) })
+    Some(Chart { curves, bands, spans: unseen(calibrated, first), strip: strip(from, to), ..Chart::new(&title, &subtitle, x, y) })
 }
 
 /// The curves of all channels.
@@ -138,7 +143,14 @@ pub fn fit(calibrated: &Calibrated) -> Result<Chart, PlotError> {
     let y = Axis::linear("Spectral responsivity", &first.unit, 0.0, top);
     let origin = if calibrated.simulated { "simulated readings" } else { "readings" };
     let subtitle = format!("{}; {} {origin}; band: ±2 u", calibrated.sensor, calibrated.labels.len());
-    Ok(Chart { curves, bands, points, spans: unseen(first), strip: strip(from, to), ..Chart::new(&calibrated.title, &subtitle, x, y) })
+    Ok(Chart {
+        curves,
+        bands,
+        points,
+        spans: unseen(calibrated, first),
+        strip: strip(from, to),
+        ..Chart::new(&calibrated.title, &subtitle, x, y)
+    })
 }
 
 /// Mean wavelength and reading over weight of exposures that are narrow.
@@ -206,5 +218,5 @@ fn kernels(calibrated: &Calibrated, channel: &CalibratedChannel) -> Chart {
     let y = Axis::linear("Weight of the true curve", "1/nm", 1.1 * ends.0, 1.1 * ends.1.max(f64::MIN_POSITIVE));
     let title = format!("Averaging kernels, {}", subscripted(&channel.readings.channel));
     let x = Axis::linear("Wavelength λ", "nm", from, to);
-    Chart { curves, spans: unseen(channel), strip: strip(from, to), ..Chart::new(&title, &calibrated.title, x, y) }
+    Chart { curves, spans: unseen(calibrated, channel), strip: strip(from, to), ..Chart::new(&title, &calibrated.title, x, y) }
 }

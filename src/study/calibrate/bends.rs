@@ -1,16 +1,29 @@
-//! Whether a curve bends more between its nodes than its uncertainty holds.
+//! What a curve bends between its nodes, as a part of its uncertainty; and whether it is so much that it has to be said.
 //!
 //! ```text
-//! |s − chord| ≤ h² |s″| / 8 ≈ |s(k−1) − 2 s(k) + s(k+1)| / 8        h: distance of the nodes
+//! |s − chord| ≤ h² |s″| / 8        mean over an interval: h² |s″| / 12        h² s″ ≈ s(k−1) − 2 s(k) + s(k+1)
+//! u_k² = u_fit² + (h² s″ / 12)²
 //! ```
 //!
-//! A fitted curve is linear between its nodes, and so are the weights of the exposures. What the true curve bends there is in no band. With little
-//! noise it is the largest error, and has to be said.
+//! A fitted curve is linear between its nodes, and so are the weights of the exposures. Where the true curve bends, the fit gives the chords the
+//! right integrals: its nodes lie off the true curve by the mean distance of a chord. With little noise that is the largest error. What the curve is used for are
+//! integrals, in which it cancels; it is no part of their uncertainty.
 
-/// Share of the nodes at which a curve may bend more than its uncertainty before it is said.
+/// Share of the nodes at which a curve may bend more than else is uncertain before it is said.
 const COARSE: f64 = 0.05;
 
-/// What is to be said of a curve with a name and a unit, from its values and standard uncertainties at the nodes.
+/// Standard uncertainties of a fitted curve at its nodes, with what it bends between them; in the unit of the curve.
+pub(in crate::study) fn with_bends(values: &[f64], fitted: &[f64]) -> Vec<f64> {
+    let last = values.len().saturating_sub(2);
+    let bend = |k: usize| match values.get(k.clamp(1, last.max(1)) - 1..) {
+        Some([a, b, c, ..]) => (a - 2.0 * b + c) / 12.0,
+        // Two nodes are a straight line.
+        _ => 0.0,
+    };
+    fitted.iter().enumerate().map(|(k, u)| u.hypot(bend(k))).collect()
+}
+
+/// What is to be said of a curve with a name and a unit, from its values and their standard uncertainties without what it bends.
 pub(in crate::study) fn too_coarse(
     nodes_nm: &[f64],
     values: &[f64],
@@ -22,8 +35,8 @@ pub(in crate::study) fn too_coarse(
     let largest = bends.iter().fold(0.0f64, |most, bend| most.max(*bend));
     (beyond as f64 > COARSE * nodes_nm.len() as f64).then(|| {
         format!(
-            "{name}: between nodes that are {} nm apart the curve bends by up to {largest:.2e} {unit}, at {beyond} nodes more than its uncertainty, which does \
-             not hold that; give `curve` a smaller `step_nm`",
+            "{name}: between nodes that are {} nm apart the curve bends by up to {largest:.2e} {unit}, at {beyond} nodes more than all else that is uncertain \
+             there; give `curve` a smaller `step_nm`",
             nodes_nm[1] - nodes_nm[0]
         )
     })
@@ -32,6 +45,15 @@ pub(in crate::study) fn too_coarse(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_bends_nowhere_and_a_parabola_everywhere_alike() {
+        assert_eq!(with_bends(&[1.0, 2.0, 3.0, 4.0], &[0.5; 4]), [0.5; 4]);
+        assert_eq!(with_bends(&[1.0, 2.0], &[0.5; 2]), [0.5; 2]);
+        for u in with_bends(&[0.0, 1.0, 4.0, 9.0], &[0.0; 4]) {
+            assert!((u - 2.0 / 12.0).abs() < 1e-15, "{u}");
+        }
+    }
 
     #[test]
     fn a_parabola_bends_by_an_eighth_of_its_second_difference() {

@@ -8,13 +8,15 @@
 //! | file | what |
 //! |---|---|
 //! | `mod.rs` | the way from a campaign to fitted channels |
-//! | `bends` | whether a curve bends more between its nodes than its uncertainty holds |
+//! | `bends` | what a curve bends between its nodes, as a part of its uncertainty |
+//! | [`colour`] | the colour error of a camera of three channels |
 //! | `measured_light` | the light of the exposures, where a reference detector measured it |
 //! | [`propagate`] | f1′, mismatch correction and luminous responsivity, with their uncertainties |
 //! | [`range`] | readings beyond the straight range of the readout |
 //! | [`suggest`] | which further exposure helps most |
 
 pub(super) mod bends;
+pub mod colour;
 mod measured_light;
 pub mod propagate;
 pub mod range;
@@ -122,7 +124,7 @@ pub struct CalibratedChannel {
     pub per_irradiance: f64,
     /// The curve at the nodes, with the covariance from noise and from what the readings leave open.
     pub curve: FittedCurve,
-    /// Standard uncertainty at each node, the common scale included.
+    /// Standard uncertainty at each node, the common scale and what the curve bends between its nodes included.
     pub standard_uncertainties: Vec<f64>,
     /// What the standard uncertainties are multiplied by for a band that holds the curve at all determined nodes at once with 95 %; `None` if no
     /// node is determined.
@@ -164,6 +166,8 @@ pub struct Calibrated {
     pub prior: (String, f64),
     /// What the classic rules for the smoothness look at, a channel each; empty unless one was asked for.
     pub rule_points: Vec<Vec<RulePoint>>,
+    /// The colour error of a camera of three channels, a lamp each.
+    pub colours: Vec<Propagated>,
     /// What further exposures are to make more certain.
     pub wanted: Wanted,
     /// Further exposures, the best first.
@@ -211,7 +215,7 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
         remarks.extend(bends::too_coarse(
             nodes,
             &found.curve.values,
-            &found.standard_uncertainties,
+            &found.curve.standard_uncertainties(),
             (&found.readings.channel, &found.unit),
         ));
         if let Some(truth) = &simulated {
@@ -231,7 +235,8 @@ pub fn calibrate(calibration: &Calibration, options: &CalibrateOptions, watch: &
         Vec::new()
     };
     let assembled = assembled(calibration, options, &light, exposures, &fitted, channels, suggestions, scale_uncertainty, remarks);
-    Ok(Calibrated { beam, ..assembled })
+    let colours = colour::colour_errors(&assembled.nodes_nm, &assembled.channels, &calibration.lamps, options.seed)?;
+    Ok(Calibrated { beam, colours, ..assembled })
 }
 
 /// Derivatives of the quantity of this name, a channel each.
@@ -268,6 +273,7 @@ fn assembled(
         channels,
         prior: (fitted.prior.clone(), fitted.length_nm),
         rule_points: fitted.rule_points.clone(),
+        colours: Vec::new(),
         wanted: options.wanted.clone(),
         suggestions,
         seed: options.seed,
@@ -330,9 +336,10 @@ fn channel(
         spectra.iter().filter_map(share).max_by(|a, b| a.0.total_cmp(&b.0))
     });
     let on_nodes = |f: &Factor| nodes.iter().map(|nm| f.at(*nm)).collect::<Vec<f64>>();
+    let fitted: Vec<f64> = curve.standard_uncertainties().iter().zip(&curve.values).map(|(u, s)| u.hypot(scale * s)).collect();
     Ok(CalibratedChannel {
         unit: curve_unit(&readings.measurand),
-        standard_uncertainties: curve.standard_uncertainties().iter().zip(&curve.values).map(|(u, s)| u.hypot(scale * s)).collect(),
+        standard_uncertainties: bends::with_bends(&curve.values, &fitted),
         simultaneous: simultaneous::factor(curve, scale, &|k| curve.undetermined[k] <= UNDETERMINED, SIMULTANEOUS, seed),
         truth: truth.map(on_nodes),
         outside,

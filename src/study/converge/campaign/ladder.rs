@@ -156,7 +156,7 @@ impl<'a> Climber<'a> {
             let sought = campaign::sought(channel);
             let truth: Vec<f64> = c.nodes_nm.iter().map(|nm| sought.at(*nm)).collect();
             let peak = truth.iter().fold(0.0f64, |most, s| most.max(*s));
-            for ((s, t), u) in curve.values.iter().zip(&truth).zip(curve.standard_uncertainties()) {
+            for ((s, t), u) in curve.values.iter().zip(&truth).zip(bends::with_bends(&curve.values, &curve.standard_uncertainties())) {
                 let u = u.hypot(scale * s);
                 sums.error += ((s - t) / peak).powi(2);
                 sums.claimed += (u / peak).powi(2);
