@@ -79,7 +79,10 @@ fn write_ladder(ladder: &CampaignLadder, out: &mut String) -> std::fmt::Result {
         )?;
     }
     if ladder.rungs.iter().any(|r| r.told > 0) {
-        writeln!(out, "  *: the fit itself says that more is uncertain there than its bands hold, as `etendue calibrate` would; in no slope")?;
+        writeln!(
+            out,
+            "  *: the fit itself says that more is uncertain there than its bands hold, as `etendue calibrate` would; in no slope"
+        )?;
     }
     write!(
         out,
