@@ -551,7 +551,7 @@ fn what_is_wrong_with_a_calibration_file_is_said_with_its_place() {
         ("relative: 0.01", "relativ: 0.01", 3, "did you mean `relative`"),
         ("relative: 0.01", "relative: -0.01", 3, "allowed: 0 to 1, a share of the reading"),
         ("relative: 0.01", "dark: 0.01", 3, "the noise is not stated"),
-        ("step_nm: 10", "step_nm: 0.001", 4, "allowed: 2 to 2000 nodes"),
+        ("step_nm: 10", "step_nm: 0.001", 4, "allowed: 2 to 801 nodes"),
         ("from_nm: 400", "from_nm: 800", 4, "the curve has"),
         ("spectra: [\"LED-B1\"]", "spectra: []", 2, "the list of spectra is empty"),
         ("spectra: [\"LED-B1\"]", "spectra: [Led(peak_nm: 450, fwhm_nm: -1)]", 2, "allowed: above 0 nm"),

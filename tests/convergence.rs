@@ -280,6 +280,15 @@ fn the_error_of_a_curve_falls_with_exposures_and_with_noise_and_is_claimed() {
 }
 
 #[test]
+fn a_campaign_by_substitution_is_held_to_the_beam_that_it_has() {
+    let study =
+        campaign("scenes/calibration/substitution.ron", &ConvergeOptions { seeds: 2, most_samples: 4096, ..ConvergeOptions::default() });
+    let last = study.ladder(LadderKind::Exposures).and_then(|ladder| ladder.rungs.last()).unwrap();
+    assert!(last.within_95 > 0.85 && last.claimed > 0.5 * last.error, "{last:?}");
+    assert!(study.remarks.iter().any(|r| r.contains("the beam is taken as known")), "{:?}", study.remarks);
+}
+
+#[test]
 fn every_form_has_every_rung_of_a_campaign() {
     let study =
         campaign("scenes/calibration/three-leds.ron", &ConvergeOptions { seeds: 2, most_samples: 4096, ..ConvergeOptions::default() });

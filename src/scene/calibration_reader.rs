@@ -57,8 +57,8 @@ const KEYS: [&str; 13] = [
     "model",
     "lamps",
 ];
-/// Most nodes of a curve: its covariance has the square of that.
-const MOST_NODES: f64 = 2000.0;
+/// Most nodes of a curve: its covariance has the square of that, and a fit takes some of its cube; 801 nodes take several seconds.
+const MOST_NODES: f64 = 801.0;
 
 /// Reads a calibration file and all files that it mentions; `root` as for a scene.
 ///

@@ -190,8 +190,13 @@ pub(super) fn figures(points: Vec<TransferPoint>, dark: Spatial, bright: Spatial
         Some((_, intercept)) => intercept,
         None => Uncertain { value: variances[0].y, u: variances[0].u },
     };
-    let hidden =
-        (dark_variance.value < HIDDEN_BY_ROUNDING_DN2).then_some("rounding hides noise below 0.24 DN²: an estimate, not a measurement");
+    let hidden_by_rounding = dark_variance.value < HIDDEN_BY_ROUNDING_DN2;
+    // What rounding hides is anywhere below the limit, however well the frames agree.
+    let dark_variance = match hidden_by_rounding {
+        true => Uncertain { u: dark_variance.u.hypot(HIDDEN_BY_ROUNDING_DN2 / 3f64.sqrt()), ..dark_variance },
+        false => dark_variance,
+    };
+    let hidden = hidden_by_rounding.then_some("rounding hides noise below 0.24 DN²: an estimate, not a measurement");
     let dark_noise_dn = root(dark_variance);
     let dark_noise = quotient(root(Uncertain { value: dark_variance.value - QUANTISATION_DN2, ..dark_variance }), gain);
 
@@ -201,7 +206,9 @@ pub(super) fn figures(points: Vec<TransferPoint>, dark: Spatial, bright: Spatial
     let largest_snr = root(saturation_e);
     let noise_e = quotient(dark_noise_dn, gain);
     let below_root = (noise_e.value * noise_e.value + 0.25).sqrt();
-    let threshold_e = Uncertain { value: 0.5 + below_root, u: noise_e.u * noise_e.value / below_root };
+    // To first order a noise of zero would move nothing; the step by its whole uncertainty does.
+    let step = (noise_e.value + noise_e.u).hypot(0.5) - below_root;
+    let threshold_e = Uncertain { value: 0.5 + below_root, u: step.max(noise_e.u * noise_e.value / below_root) };
     let threshold_photons = quotient(threshold_e, efficiency);
     let range = quotient(saturation_e, threshold_e);
     let (lowest, highest) = linearity(&points, at_saturation_dn).ok_or_else(few)?;

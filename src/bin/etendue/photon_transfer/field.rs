@@ -17,6 +17,9 @@ use crate::{Failure, complain, disk, expose};
 const TARGET: f64 = 1e-3;
 /// The unit in which a channel that reads `PhotonIrradiance` indicates.
 const PHOTON_IRRADIANCE: &str = "µmol/(m² s)";
+/// Largest standard deviation of the light over the pixels, as a share of its mean: figures that are means over the pixels need one light. EMVA 1288 allows 3 % from
+/// the darkest to the brightest pixel, some three standard deviations.
+const FLAT: f64 = 0.01;
 /// A non-uniformity of so much of the PRNU adds 2 % to it.
 const SEEN_IN_PRNU: f64 = 0.2;
 
@@ -72,6 +75,18 @@ impl Arguments {
             TracedFieldError::Plan(PlanError::UnknownRule { .. }) => Failure::Input(format!("error: {e}")),
             TracedFieldError::Plan(_) | TracedFieldError::Estimate(_) => Failure::Run(format!("error: {e}")),
         })?;
+        if found.non_uniformity > FLAT {
+            let what = format!(
+                "no flat field: over the {} × {} pixels the light varies by {:.1} % of itself (standard deviation; allowed: {} %, at which EMVA 1288's limit of 3 % \
+                 from the darkest to the brightest pixel is met)",
+                found.columns,
+                found.rows,
+                100.0 * found.non_uniformity,
+                100.0 * FLAT
+            );
+            let help = "let a source of one luminance fill the camera's field, as in scenes/flat-field-of-a-camera.ron, or take fewer pixels: --size 32";
+            return Err(trouble(&self.file, &what, help));
+        }
         let seen = if found.non_uniformity > SEEN_IN_PRNU * pixel.prnu { ", and is found as part of the PRNU" } else { "" };
         complain(&format!(
             "note: {} rays; over the {} × {} pixels the light varies by {:.1e} of itself (standard deviation; {:.1e} by the samples of a pixel){seen}",

@@ -92,7 +92,7 @@ impl<'a> Climber<'a> {
         let affordable = if seconds > 0.0 { left / (FITS_PER_SEED * seconds) } else { f64::INFINITY };
         if affordable < LEAST_SEEDS as f64 {
             return Err(ConvergeError::Budget(format!(
-                "the budget of {} s is too short: a fit takes {seconds:.2} s, and a study needs {} times that; give at least {:.0} s",
+                "the budget of {} s is too short: a fit takes {seconds:.2} s, and a study needs {:.0} times that; give at least {:.0} s",
                 options.budget_seconds,
                 FITS_PER_SEED * LEAST_SEEDS as f64 / SHARES.0,
                 ((begun - start + 1.5 * FITS_PER_SEED * LEAST_SEEDS as f64 * seconds) / SHARES.0).ceil()
@@ -101,6 +101,12 @@ impl<'a> Climber<'a> {
         climber.seeds = options.seeds.min(affordable as u64).max(LEAST_SEEDS);
         if climber.seeds < options.seeds {
             climber.remarks.push(format!("{} seeds, not {}: the budget is too short for more", climber.seeds, options.seeds));
+        }
+        if let Some(reference) = &calibration.reference {
+            climber.remarks.push(format!(
+                "the beam is taken as known: what {} adds to the uncertainty is left out, `etendue calibrate` tells it",
+                reference.sensor.title
+            ));
         }
         if calibration.scale_uncertainty > 0.0 {
             climber.remarks.push(format!(
@@ -130,7 +136,7 @@ impl<'a> Climber<'a> {
         seed: u64,
     ) -> Result<Sums, ConvergeError> {
         let c = self.calibration;
-        let mut noisy = Calibration { scale_uncertainty: 0.0, ..c.clone() };
+        let mut noisy = Calibration { scale_uncertainty: 0.0, reference: None, ..c.clone() };
         noisy.noise.relative *= noise;
         noisy.noise.absolute *= noise;
         let readings = campaign::simulated(&noisy, truly, seed);
